@@ -1108,6 +1108,14 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                                      stable (`kinematics = corotational`)
  *   buckling_time             -        time at which the first of these states began to buckle
  *   buckling_released         F L      part of `released` that is set free where the bodies snap through
+ *   rotation_error            -        estimated relative error of strains that are linear in the displacements: half
+ *                                      the square of the largest rotation, or, if larger, the work of the stresses on
+ *                                      rotations. It is 0 with `kinematics = corotational`.
+ *   buckling_ratio            -        stresses over those at which the bodies buckle, at the present adhesion and
+ *                                      contact. Above 1 they would buckle with `kinematics = corotational`. Faces that
+ *                                      touch without a force are open. It is NaN where a part is free to move, in an
+ *                                      engine, and with `kinematics = corotational`. It costs a factorisation of all
+ *                                      bodies.
  * Values of the fronts of all interfaces with a law or, with :I appended (crack_length:0), of interface I:
  *   crack_length              L or L2  initially open part, plus sum of w (1 - zeta) over the pairs with initial
  *                                      adhesion > 0

@@ -80,4 +80,10 @@ MemoryLimit memory_limit() {
     return limit;
 }
 
+MemoryLimit memory_limit(double option) {
+    const MemoryLimit limit = memory_limit();
+    const double own = option * 1024.0 * 1048576.0;
+    return own > 0.0 && own < limit.bytes ? MemoryLimit{own, "option memory_limit"} : limit;
+}
+
 }  // namespace delam

@@ -14,6 +14,8 @@ struct MemoryLimit {
 // The smallest of physical memory and the limits of the process' control groups, each with the swap space, and the
 // limit of its address space.
 MemoryLimit memory_limit();
+// Returns the smaller of this and what an analysis may take by its option memory_limit, in GiB; 0: it says nothing.
+MemoryLimit memory_limit(double option);
 
 // Returns the smallest limit of the Linux control groups of this process, of versions 1 and 2, and of the groups around
 // them; infinite if they set no limit. top: the folder that contains proc and sys.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -334,6 +335,21 @@ std::int64_t Mesh::append(InterfaceGeometry interface, std::vector<NodeTie> ties
 void Mesh::append_all(std::vector<InterfaceGeometry>& interfaces) {
     interfaces_.reserve(interfaces_.size() + interfaces.size());
     std::move(interfaces.begin(), interfaces.end(), std::back_inserter(interfaces_));
+}
+
+double scene_size(const Mesh& mesh) {
+    const auto dim = index(mesh.dimension());
+    const std::span<const double> nodes = mesh.nodes();
+    double square = 0.0;
+    for (std::size_t k = 0; k < dim; ++k) {
+        double least = std::numeric_limits<double>::infinity(), most = -least;
+        for (std::size_t i = k; i < nodes.size(); i += dim) {
+            least = std::min(least, nodes[i]);
+            most = std::max(most, nodes[i]);
+        }
+        square += (most - least) * (most - least);
+    }
+    return std::sqrt(square);
 }
 
 }  // namespace delam

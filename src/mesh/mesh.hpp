@@ -123,4 +123,7 @@ private:
     std::vector<NodeTie> ties_;
 };
 
+// Returns the diagonal of the box around a mesh.
+double scene_size(const Mesh& mesh);
+
 }  // namespace delam

@@ -73,12 +73,12 @@ struct Strut {
     double critical() const { return pi * pi * height * height / (3.0 * length); }  // shortening
     double inertia() const { return height * height * height / 12.0; }
 
-    Scene scene(double shortening, const View& view = {}) const {
+    Scene scene(double shortening, const View& view = {}, const char* kinematics = "corotational") const {
         Scene scene = cases::make_blocks(2, {{{0.0, 0.0, 0.0}, {length, height, 0.0}, {40, 2, 1}}},
                                          [&](const Place& x) { return view.at(x); });
         scene.begin();
         scene.elastic(-1, young / (view.unit * view.unit), 0.0);
-        scene.text("kinematics", "corotational");
+        scene.text("kinematics", kinematics);
         const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, view.unit * shortening});
         for (std::size_t k = 0; k < 2; ++k) hold(scene, view.nodes(scene, 0, 0, 0.0), view.along(k));
         hold(scene, view.nodes(scene, 0, 0, length), view.along(1));
@@ -124,7 +124,8 @@ struct Blister {
     double rise(double strain) const { return 4.0 * half / pi * std::sqrt(strain - critical()); }
 
     // below: the film is under the base; covered: another base lies on it.
-    Scene scene(double strain, bool below = false, bool covered = false) const {
+    Scene scene(double strain, bool below = false, bool covered = false,
+                const char* kinematics = "corotational") const {
         const double length = 2.0 * (half + bonded), top = base + height;
         const int cells = static_cast<int>(std::lround(length / 0.25));
         std::vector<cases::Block> blocks{{{0.0, 0.0, 0.0}, {length, base, 0.0}, {cells, 1, 1}},
@@ -148,7 +149,7 @@ struct Blister {
                     open.push_back(static_cast<std::int64_t>(p));
             scene.adhesion(i, open, std::vector<double>(open.size(), 0.0));
         }
-        scene.text("kinematics", "corotational");
+        scene.text("kinematics", kinematics);
         const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, strain * length});
         const double turn = below ? -1.0 : 1.0, begin = below ? length : 0.0;
         for (std::int32_t body = 0; body < bodies; ++body) {
@@ -336,4 +337,107 @@ TEST(saved_branches_go_on) {
     cases::expect_same(resumed, cases::read_bits(resumed), then, "after loading");
     walk(resumed, 4, 8);
     cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(whole), "in the end");
+}
+
+// Small rotations keep bodies flat, but tell by how much the stresses exceed the critical ones: those of Euler's strut,
+// at which rotations of any size find the branch, in any view and unit, and in proportion to the load.
+TEST(small_rotations_tell_of_buckling) {
+    const Strut strut;
+    const double last = 2.0 * strut.critical();
+    const Scene branch = strut.scene(last);
+    Solver turned(branch, 0.0);
+    double buckled = 0.0;
+    for (const Step& step : run(turned, 6)) buckled += step.buckled;
+    cases::expect(std::isnan(turned.value("buckling_ratio")), "rotations of any size have no ratio");
+    cases::expect(turned.value("rotation_error") == 0.0, "rotations of any size have no error");
+    for (const View& view : {View{}, View{0.3, 1.0}, View{0.5 * pi, 25.4}}) {
+        const Scene scene = strut.scene(last, view, "linear");
+        Solver solver(scene, 0.0);
+        for (const double time : {0.5, 1.0}) {
+            solver.step(time);
+            solver.commit();
+            const double ratio = solver.value("buckling_ratio");
+            cases::expect_near(ratio * strut.critical(), time * last, 1e-2, time * last, "against Euler");
+            cases::expect_near(ratio * buckled, time, 1e-2, time, "against the branch");
+        }
+    }
+    const Scene pulled = strut.scene(-last, {}, "linear");
+    Solver solver(pulled, 0.0);
+    solver.step(1.0);
+    cases::expect_below(solver.value("buckling_ratio"), 0.05, "a strut that is pulled");
+}
+
+// The strut in space, with every realisation of the jump operator.
+LOOP_TEST(small_rotations_tell_of_buckling_in_space, 0, 3) {
+    const Strut strut;
+    constexpr const char* reductions[] = {"condensed", "iterated", "feti"};
+    Scene scene = cases::make_blocks(3, {{{0.0, 0.0, 0.0}, {strut.length, strut.height, 2.0}, {40, 2, 1}}}, nullptr);
+    scene.begin();
+    scene.elastic(-1, strut.young, 0.0);
+    scene.text("reduction", reductions[loop]);
+    const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, 2.0 * strut.critical()});
+    const auto end = [&](double x) {
+        return cases::nodes_where(scene, 0, [x](const double* p) { return std::abs(p[0] - x) < 1e-6; });
+    };
+    for (int k = 0; k < 3; ++k) {
+        hold(scene, end(0.0), cases::unit(3, k));
+        if (k > 0) hold(scene, end(strut.length), cases::unit(3, k));
+    }
+    drive(scene, end(strut.length), cases::unit(3, 0, -1.0), load);
+    Solver solver(scene, 0.0);
+    solver.step(1.0);
+    cases::expect_near(solver.value("buckling_ratio"), 2.0, 1e-2, 2.0, "against Euler");
+}
+
+// Faces that touch without a force hold a film only where it can open to no side. A film that came off with the step
+// counts as it is at its end.
+TEST(small_rotations_tell_of_films) {
+    Blister blister;
+    const double strain = 3.0 * blister.critical();
+    for (const bool below : {false, true}) {
+        const Scene scene = blister.scene(strain, below, false, "linear");
+        Solver solver(scene, 0.0);
+        solver.step(1.0);
+        cases::expect_near(solver.value("buckling_ratio"), 3.0, 3e-2, 3.0, "critical strain of a film");
+    }
+    const Scene covered = blister.scene(strain, false, true, "linear");
+    Solver solver(covered, 0.0);
+    solver.step(1.0);
+    cases::expect_below(solver.value("buckling_ratio"), 0.2, "a film between two bases");
+}
+
+// The error of small rotations, where it is small, is that of loads: a cantilever under a force across and a pull.
+TEST(small_rotations_tell_their_error) {
+    for (const double pull : {0.0, 0.02}) {
+        double error = 0.0, deflection[2] = {};
+        int way = 0;
+        for (const char* kinematics : {"linear", "corotational"}) {
+            Scene scene = cases::make_blocks(2, {{{0.0, 0.0, 0.0}, {20.0, 0.5, 0.0}, {40, 2, 1}}}, nullptr);
+            scene.begin();
+            scene.elastic(-1, 1000.0, 0.0);
+            scene.text("kinematics", kinematics);
+            const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, 1.0});
+            const auto end = [&](double x) {
+                return cases::nodes_where(scene, 0, [x](const double* p) { return std::abs(p[0] - x) < 1e-6; });
+            };
+            for (std::size_t k = 0; k < 2; ++k) hold(scene, end(0.0), cases::unit(2, static_cast<int>(k)));
+            const std::vector<std::int64_t> tip = end(20.0);
+            const double share = 1.0 / static_cast<double>(tip.size());
+            std::vector<double> force;
+            for (std::size_t n = 0; n < tip.size(); ++n) force.insert(force.end(), {share * pull, share * 0.0005});
+            cases::forces(scene, load, tip, force);
+            Solver solver(scene, 0.0);
+            for (int k = 1; k <= 4; ++k) {
+                solver.step(k / 4.0);
+                solver.commit();
+            }
+            if (way == 0) error = solver.value("rotation_error");
+            deflection[way++] = solver.field("displacement")[static_cast<std::size_t>(2 * tip.front() + 1)];
+        }
+        const double truth = std::abs(deflection[0] / deflection[1] - 1.0);
+        if (pull > 0.0)
+            cases::expect(0.2 * truth < error && error < 5.0 * truth && truth > 0.05, "error of a beam that is pulled");
+        else
+            cases::expect(error < 1e-2 && truth < 1e-2, "error of a beam that is bent");
+    }
 }

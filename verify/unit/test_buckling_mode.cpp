@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "check.hpp"
-#include "evolution/minimise/buckling_mode.hpp"
+#include "reduction/turned/buckling_mode.hpp"
 
 using namespace delam;
 

@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <random>
 #include <span>
 #include <vector>
 
 #include "all_types.hpp"
+#include "body/element.hpp"
+#include "body/turned/initial_stress.hpp"
 #include "body/turned/turned_bodies.hpp"
 #include "check.hpp"
 #include "mesh/layers.hpp"
@@ -159,4 +162,44 @@ TEST(cell_that_is_inside_out_is_told) {
     for (std::size_t n = 0; n < u.size() / 2; ++n) u[2 * n] = -2.0 * one.nodes[2 * n];
     for (std::size_t n = 0; n < u.size() / 2; ++n) u[2 * n + 1] = 0.0;
     ck_assert(!one.cell[0].move(u));
+}
+
+// The work of a constant stress on displacements with a constant gradient H is V s : H^T H / 2, for every kind of cell.
+LOOP_TEST(stresses_work_on_rotations, 0, std::size(all_types)) {
+    const CellType type = all_types[size(loop)];
+    const OneCell one(type);
+    const std::size_t dim = one.dim, columns = dim == 2 ? 4 : 6;
+    Mesh mesh(static_cast<int>(dim), one.nodes);
+    std::vector<std::int64_t> connectivity(one.nodes.size() / dim);
+    std::iota(connectivity.begin(), connectivity.end(), std::int64_t{0});
+    mesh.add_cells(type, connectivity, {});
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    std::vector<double> stress(columns), slope(dim * dim), u;
+    for (double& s : stress) s = any(random);
+    for (double& h : slope) h = any(random);
+    for (std::size_t n = 0; n < one.nodes.size(); n += dim)
+        for (std::size_t i = 0; i < dim; ++i) {
+            u.push_back(0.0);
+            for (std::size_t j = 0; j < dim; ++j) u.back() += slope[i * dim + j] * one.nodes[n + j];
+        }
+    constexpr std::size_t place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // xx, yy, zz, xy, yz, zx
+    double density = 0.0;
+    for (std::size_t i = 0; i < dim; ++i)
+        for (std::size_t j = 0; j < dim; ++j)
+            for (std::size_t k = 0; k < dim; ++k)
+                density += slope[i * dim + j] * stress[place[j][k]] * slope[i * dim + k];
+    std::vector<double> gradients(one.nodes.size());
+    const double volume = integrate_gradients(type, one.nodes, gradients);
+    const std::vector<double> force = InitialStress(mesh, stress).softening(u);
+    double work = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < force.size(); ++i) {
+        work -= force[i] * u[i];
+        sum += force[i];
+    }
+    ck_assert_double_eq_tol(work, volume * density, 1e-12 * volume);
+    ck_assert_double_eq_tol(sum, 0.0, 1e-12);
+    // What is not known does no work.
+    stress.assign(columns, std::nan(""));
+    for (const double f : InitialStress(mesh, stress).softening(u)) ck_assert(f == 0.0);
 }

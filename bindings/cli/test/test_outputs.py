@@ -84,6 +84,14 @@ expect(all(row["front_mixity_mean"] < 1e-6 for row in grown), "a beam that opens
 
 expect(about["front_unresolved"] == [] and "warning: in " not in text, "a resolved process zone is not mentioned")
 expect(about["rotation_max"] > 0.1 and "cells rotate by up to" in text, "large rotations are")
+expect(about["small_rotations"]["buckling_ratio"] < 0.1 and "bodies buckle" not in text, "nothing buckles")
+blister = read(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../examples/blister/blister.toml")).decode()
+for line, asks in (("", True), ('kinematics = "linear"', False)):
+    flat = folder()
+    code, closing, _ = delam("run", write(blister.replace('kinematics = "corotational"', line)), "--out", flat, "--set", "time.steps=2")
+    small = json.loads(read(os.path.join(flat, "result.json")))["small_rotations"]
+    expect(code == 0 and ("those at which the bodies buckle" in closing) == asks, f"a film that would rise, {line or 'default'}: {closing[-300:]}")
+    expect(abs(small["buckling_ratio"] / 3.25 - 1) < 0.02 if asks else small["buckling_ratio"] is None, f"its ratio: {small}")
 with h5py.File(os.path.join(out, "fields.h5")) as file:
     point = file["steps/00000020/interface_0"]
     expect(point["front_points"].shape == (1, 3) and abs(point["front_points"][0, 0] - float(last["crack_length"])) < 1e-12 and

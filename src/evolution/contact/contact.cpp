@@ -330,6 +330,16 @@ double ContactScene::rounding_of_forces(std::span<const double> theta, std::span
     return force_rounding * size;
 }
 
+std::vector<std::uint8_t> touching_pairs(const ContactScene& scene, const JumpOperator& op, double scene_size,
+                                         std::span<const double> jump) {
+    constexpr double rounding_gap = 1e-9;  // of the scene: smaller gaps are rounding
+    const auto dim = index(scene.dimension);
+    std::vector<std::uint8_t> touching(jump.size() / dim, 0);
+    for (std::size_t p = 0; p < touching.size(); ++p)
+        if (scene.may_close(p, op.prescribed_rows()) && jump[p * dim] < rounding_gap * scene_size) touching[p] = 1;
+    return touching;
+}
+
 std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const std::uint8_t> closed) {
     const auto dim = index(scene.dimension);
     std::vector<std::uint8_t> held(closed.size() * dim, 0);

@@ -85,6 +85,9 @@ private:
 
 // Springs::held of a contact set: every row of a bonded pair and the normal row of a closed one. closed: [pairs].
 std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const std::uint8_t> closed);
+// Returns the pairs, of those that may close, whose faces touch at these jumps [rows], [pairs].
+std::vector<std::uint8_t> touching_pairs(const ContactScene& scene, const JumpOperator& op, double scene_size,
+                                         std::span<const double> jump);
 // True if some part is held by contact alone, or by nothing. stiffness: of the springs, [rows].
 bool held_by_contact_alone(const ContactScene& scene, std::span<const double> stiffness);
 

@@ -105,21 +105,6 @@ bool prefers_second(const Found& first, const Found& second, double level) {
 
 }  // namespace
 
-double scene_size(const Mesh& mesh) {
-    const auto dim = index(mesh.dimension());
-    const std::span<const double> nodes = mesh.nodes();
-    double square = 0.0;
-    for (std::size_t k = 0; k < dim; ++k) {
-        double least = std::numeric_limits<double>::infinity(), most = -least;
-        for (std::size_t i = k; i < nodes.size(); i += dim) {
-            least = std::min(least, nodes[i]);
-            most = std::max(most, nodes[i]);
-        }
-        square += (most - least) * (most - least);
-    }
-    return std::sqrt(square);
-}
-
 std::optional<EnergyFall> energy_fall(const TurnedOperator& op, const PairLaws& pairs, const State& state,
                                       std::span<const double> mode) {
     Line line(op, pairs, state, state.response.multipliers, mode);

@@ -26,9 +26,6 @@ struct EnergyFall {
 std::optional<EnergyFall> energy_fall(const TurnedOperator& op, const PairLaws& pairs, const State& state,
                                       std::span<const double> mode);
 
-// Returns the diagonal of the box around a mesh.
-double scene_size(const Mesh& mesh);
-
 // Returns the share of a move from these displacements at which the energy of a state, at its adhesion, is lowest:
 // among halves and doubles of it, and on a parabola through the lowest three.
 double lowest_share(const TurnedOperator& op, const PairLaws& pairs, const State& state,

@@ -13,6 +13,25 @@ namespace delam {
 
 namespace {
 
+// Returns 1 where nothing holds a motion of a body (FreeParts::moves), else 0, [bodies][3 or 6].
+std::vector<double> unheld_motions(Observer& observer) {
+    const std::int64_t modes = observer.problem().mesh->dimension() == 2 ? 3 : 6;
+    std::vector<double> out(index(observer.problem().mesh->body_count() * modes), 0.0);
+    const ContactScene& contact = observer.contact();
+    if (contact.parts == nullptr) return out;
+    const State& state = observer.state();
+    const DenseMatrix free =
+        free_motions(observer.jump_operator(), contact, spring_stiffness(observer.pairs(), state.adhesion), state.theta,
+                     state.closed, state.response);
+    const std::vector<std::uint8_t> moves = contact.parts->moves(free);
+    std::copy(moves.begin(), moves.end(), out.begin());
+    return out;
+}
+
+std::vector<double> reactions_of(Observer& o) {
+    return o.jump_operator().reaction(o.state().theta, o.state().response);
+}
+
 // Tells what a row of a field belongs to.
 enum class Of { nodes, cells, pairs, constraints, bodies };
 
@@ -56,9 +75,9 @@ constexpr FieldRow field_table[] = {
      {1, 1},
      nullptr,
      [](const Observer& o, std::size_t i) { return o.state().closed[i] != 0 ? 1.0 : 0.0; }},
-    {"reaction", Of::constraints, {1, 1}, [](Observer& o) { return o.reaction(); }, nullptr},
+    {"reaction", Of::constraints, {1, 1}, reactions_of, nullptr},
     {"free_since", Of::bodies, {1, 1}, free_since, nullptr},
-    {"free_motion", Of::bodies, {3, 6}, [](Observer& o) { return o.free_motions(); }, nullptr},
+    {"free_motion", Of::bodies, {3, 6}, unheld_motions, nullptr},
     {"mesh_error", Of::cells, {1, 1}, [](Observer& o) { return o.mesh_error_of_cells(); }, nullptr},
 };
 

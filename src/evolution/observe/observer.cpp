@@ -10,9 +10,11 @@
 #include "base/numbers.hpp"
 #include "body/assembly.hpp"
 #include "body/rotation.hpp"
+#include "body/turned/initial_stress.hpp"
 #include "body/turned/turned_bodies.hpp"
 #include "evolution/observe/balance.hpp"
 #include "reduction/sparse/engine/engine_operator.hpp"
+#include "reduction/turned/linear_buckling.hpp"
 #include "scene/strain_loads.hpp"
 
 namespace delam {
@@ -123,15 +125,34 @@ MeshErrorShares Observer::mesh_error(const State& state) {
     return shares;
 }
 
-std::vector<double> Observer::free_motions() const {
-    const std::int64_t modes = problem_.mesh->dimension() == 2 ? 3 : 6;
-    std::vector<double> out(index(problem_.mesh->body_count() * modes), 0.0);
-    if (contact_.parts == nullptr) return out;
-    const DenseMatrix free = delam::free_motions(op_, contact_, spring_stiffness(pairs_, state().adhesion),
-                                                 state().theta, state().closed, state().response);
-    const std::vector<std::uint8_t> moves = contact_.parts->moves(free);
-    std::copy(moves.begin(), moves.end(), out.begin());
-    return out;
+double Observer::rotation_error(const State& state) {
+    if (op_.turned(state.response) != nullptr) return 0.0;
+    const double rotation = largest_rotation(state), stored = state.ledger.stored_bulk;
+    if (!(stored > 0.0)) return rotation > 0.0 ? unknown : rotation;
+    const std::vector<double> moved = displacement(state);
+    const double work = -0.5 * dot(InitialStress(*problem_.mesh, stress(state)).softening(moved), moved);
+    return std::max(0.5 * rotation * rotation, std::abs(work) / stored);
+}
+
+double Observer::buckling_ratio(const State& state) {
+    if (op_.turned(state.response) != nullptr || problem_.mesh->cell_count() == 0) return unknown;
+    const double least = problem_.options.limits.turned_balance * max_abs(op_.reaction(state.theta, state.response));
+    const auto dim = index(problem_.mesh->dimension());
+    std::vector<std::uint8_t> pressed = state.closed, touching(state.response.jump.size(), 0);
+    const std::vector<std::uint8_t> touches =
+        touching_pairs(contact_, op_, scene_size(*problem_.mesh), state.response.jump);
+    for (std::size_t p = 0; p < pressed.size(); ++p) {
+        if (!(-state.response.force[p * dim] > least)) pressed[p] = 0;
+        if (pressed[p] == 0) touching[p * dim] = touches[p];
+    }
+    Springs springs{spring_stiffness(pairs_, state.adhesion), held_rows(contact_, pressed)};
+    return critical_ratio(problem_, std::move(springs), touching, InitialStress(*problem_.mesh, stress(state)),
+                          [] { poll_cancel("buckling"); });
+}
+
+std::vector<double> Observer::stress(const State& state) {
+    const std::vector<double> moved = displacement(state);
+    return centre_stress(*problem_.mesh, models(), moved, centres().slopes(moved), eigenstrains(state));
 }
 
 std::vector<double> Observer::stress() {

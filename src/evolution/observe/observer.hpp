@@ -64,10 +64,6 @@ public:
     bool recover_in_engine();
     // Returns how often displacements were recovered.
     std::int64_t recoveries() const { return recoveries_; }
-    // Reactions of the constraints, [constraints].
-    std::vector<double> reaction() const { return op_.reaction(state().theta, state().response); }
-    // 1 where nothing holds a motion of a body (FreeParts::moves), else 0.
-    std::vector<double> free_motions() const;
     // Out-of-balance force over the largest reaction.
     double equilibrium_defect(const State& state);
     // Returns the stress at the centres of the cells (centre_stress); NaN for bodies with a stiffness of the host and
@@ -84,6 +80,12 @@ public:
     std::vector<double> rotation();
     // Returns the largest rotation of a cell, rad; NaN without cells. Recovers the displacements.
     double largest_rotation(const State& state);
+    // Returns the relative error of strains that are linear in the displacements, about: the larger of half the square
+    // of the largest rotation, and the work of the stresses on the rotations over the energy of the bodies. NaN where
+    // it is not known; 0 where strains know rotations. Recovers the displacements.
+    double rotation_error(const State& state);
+    // Returns the present stresses over those at which the bodies buckle (critical_ratio).
+    double buckling_ratio(const State& state);
 
     // Returns the error of the stored energy that mesh_error.hpp estimates for a state; recovers the displacements.
     // Finite only where the materials of all cells are known and energy is stored.
@@ -110,6 +112,8 @@ private:
     // Returns the model of each body; undefined where the material is unknown.
     std::vector<BodyModel> models() const;
     std::vector<Strain> eigenstrains(const State& state) const;
+    // Returns the stress at the centres of the cells, of any state with small rotations.
+    std::vector<double> stress(const State& state);
     MeshError estimate(const State& state);
     const CentreGradients& centres();
     // Displacement gradients at the centres of the cells (CentreGradients::slopes), of the state that is shown.

@@ -26,9 +26,6 @@ constexpr double neutral = 1e-6;
 // of a snap-through. (A strut in 15 steps leaves 0.002, a blister in 60, whose root softens, less than nothing.)
 constexpr double snaps = 0.1;
 
-// Gaps that are smaller than this part of the scene are rounding: faces touch.
-constexpr double rounding_gap = 1e-9;
-
 // The state as one of a linearised scene, whose additional pattern has had no factor so far: its loads are never in
 // proportion to those before.
 State extended(const State& state, std::size_t patterns) {
@@ -327,11 +324,10 @@ BucklingMode TurnedSteps::mode_of(const State& state, std::span<const std::uint8
 bool TurnedSteps::held_by_faces(const State& state, Known& known) const {
     State at = extended(state, problem_.patterns.size());
     at.theta.back() = 1.0;
-    const ContactScene& contact = linear_->stepper->contact();
-    const double touching = rounding_gap * scene_size(*problem_.mesh);
-    const auto dim = index(problem_.mesh->dimension());
+    const std::vector<std::uint8_t> touching =
+        touching_pairs(linear_->stepper->contact(), op_, scene_size(*problem_.mesh), state.response.jump);
     for (std::size_t p = 0; p < at.closed.size(); ++p)
-        if (contact.may_close(p, op_.prescribed_rows()) && state.response.jump[p * dim] < touching) at.closed[p] = 1;
+        if (touching[p] != 0) at.closed[p] = 1;
     const TurnedPoint about{state.response.multipliers, {}, {}};
     known.tangent = tangent_about(about, state, at);
     if (known.tangent.empty()) return false;
@@ -424,8 +420,10 @@ Stepper::Result TurnedSteps::step(const State& before, double time, double strid
     if (next.adhesion == before.adhesion) ledger.lower = ledger.upper = ledger.increment;
     // The tangent after the step is that of another branch.
     if (next.outcome.buckling.modes > 0) ledger.lower = ledger.increment;
-    next.outcome.released = damages_abruptly(*rule, next.adhesion) ? std::max(0.0, work - ledger.increment)
-                                                                   : next.outcome.buckling.released;
+    // A state that is as high at the load before as the one before may have come about without a release: what the
+    // trapezoidal rule leaves open then is its own error.
+    const bool falls = ledger.increment < ledger.lower && damages_abruptly(*rule, next.adhesion);
+    next.outcome.released = falls ? std::max(0.0, work - ledger.increment) : next.outcome.buckling.released;
     ledger.work = before.ledger.work + work;
     ledger.released = before.ledger.released + next.outcome.released;
     known_ = std::move(known);

@@ -21,9 +21,9 @@
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "evolution/minimise/buckling_mode.hpp"
 #include "evolution/minimise/energy_fall.hpp"
 #include "evolution/step/stepper.hpp"
+#include "reduction/turned/buckling_mode.hpp"
 #include "reduction/turned/turned_operator.hpp"
 #include "scene/problem.hpp"
 

@@ -251,13 +251,6 @@ void choose(ReductionChoice& choice) {
 
 namespace {
 
-MemoryLimit memory_for(const Problem& problem) {
-    MemoryLimit limit = memory_limit();
-    const double own = problem.options.memory_limit * 1024.0 * 1048576.0;
-    if (own > 0.0 && own < limit.bytes) limit = {own, "option memory_limit"};
-    return limit;
-}
-
 // Entries of the stiffness of all bodies, counted without it.
 double stiffness_entries(const Problem& problem) {
     const Mesh& mesh = *problem.mesh;
@@ -374,7 +367,7 @@ Design chosen(const Problem& problem, Monitor& monitor) {
     const Options& options = problem.options;
     Design design;
     ReductionChoice& choice = design.choice;
-    choice.memory = memory_for(problem);
+    choice.memory = memory_limit(problem.options.memory_limit);
     if (problem.engine != nullptr) return of_engine(std::move(design), problem, monitor);
     const StepControl control = used_step_control(problem, options);
     choice.parts = expected_parts(problem, control.name == "load", control.path_step);

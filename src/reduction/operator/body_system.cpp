@@ -168,6 +168,12 @@ void BodySystem::add_variables(std::span<const double> variables, std::span<doub
     for (std::size_t i = 0; i < moved.size(); ++i) displacement[i] += moved[i];
 }
 
+std::vector<double> BodySystem::jump(std::span<const double> displacement) const {
+    std::vector<double> jump(index(jump_rows_.rows));
+    multiply(jump_rows_, displacement, jump);
+    return jump;
+}
+
 std::vector<double> BodySystem::stressed(std::span<const double> displacement) const {
     std::vector<double> force(displacement.size());
     multiply(stiffness_, displacement, force);

@@ -41,6 +41,8 @@ public:
     std::vector<double> lift(std::span<const double> theta) const;
     // displacement += T v
     void add_variables(std::span<const double> variables, std::span<double> displacement) const;
+    // Returns the jumps of displacements, [rows].
+    std::vector<double> jump(std::span<const double> displacement) const;
     // K u
     std::vector<double> stressed(std::span<const double> displacement) const;
     // The forces that no element balances: K u - f + B^T force. stressed: K u; force: of the jump rows.

@@ -165,7 +165,8 @@ public:
         // Without fields, the last state is estimated; of many processes, none has all displacements.
         if (!std::isfinite(bulk.mesh_error.away) && !fields_.on_many_processes())
             bulk.mesh_error = mesh_error_of(model_, solver_.get());
-        outcome.closing = closing_of(model_, solver_.get(), scene_, rows_->text(), bulk);
+        outcome.closing = closing_of(model_, solver_.get(), scene_, rows_->text(), bulk,
+                                     outcome.complete && !fields_.on_many_processes());
         outcome.closing_lines = closing_lines(outcome.closing, scene_);
         outcome.has_jumps = writes_jumps(outcome.closing.jumps, solver_.get());
         const std::string jumps_file = folder_.running() + "/jumps.csv";

@@ -79,6 +79,12 @@ Json mesh_error_json(const MeshError& error) {
             {"time", error.time}};
 }
 
+Json small_rotations_json(const SmallRotations& small) {
+    if (!small.assumed) return nullptr;
+    const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
+    return {{"error", number(small.error)}, {"buckling_ratio", number(small.buckling)}};
+}
+
 Json load_drops_json(const LoadDrops& drops) {
     if (drops.steps.empty()) return {{"steps", Json::array()}, {"largest", nullptr}};
     return {{"steps", drops.steps},
@@ -218,6 +224,7 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
         {"pops", {{"pairs", outcome.closing.pops.pairs}, {"released", outcome.closing.pops.released}}},
         {"free_bodies", free_bodies_json(outcome.closing.free_bodies)},
         {"rotation_max", outcome.closing.bulk.rotation_max},
+        {"small_rotations", small_rotations_json(outcome.closing.small)},
         {"mesh_error", mesh_error_json(outcome.closing.bulk.mesh_error)},
         {"scene",
          {{"file", scene.file},

@@ -8,7 +8,7 @@
 namespace cli {
 
 Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene, std::string_view history,
-                   const BulkFacts& bulk) {
+                   const BulkFacts& bulk, bool of_end) {
     const Rows rows = rows_of(history);
     Closing out;
     out.jumps = jumps_of(model, solver, scene);
@@ -17,7 +17,7 @@ Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene,
     out.search = search_limits_of(rows, option_number(solver, "search_tolerance"));
     out.load_drops = load_drops_of(rows, out.jumps, scene);
     out.follows_load = option_text(solver, "step_control") == "load";
-    out.small_rotations = option_text(solver, "kinematics") == "linear";
+    out.small = small_rotations_of(model, solver, scene, of_end);
     out.estimate_tolerance = option_number(solver, "backtracking_tolerance");
     out.estimate_violated = violated_steps(rows, out.estimate_tolerance);
     out.estimate_inconclusive = inconclusive_steps(rows);
@@ -45,7 +45,8 @@ std::vector<std::string> closing_lines(const Closing& closing, const Scene& scen
     out.push_back(unresolved_line(closing.front_unresolved));
     out.push_back(pops_line(closing.pops));
     out.push_back(mesh_error_line(closing.bulk.mesh_error, scene));
-    if (closing.small_rotations) out.push_back(rotation_line(closing.bulk.rotation_max));
+    out.push_back(rotation_line(closing.small, closing.bulk.rotation_max));
+    out.push_back(critical_line(closing.small));
     std::erase(out, "");
     return out;
 }

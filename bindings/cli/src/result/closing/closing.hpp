@@ -15,6 +15,7 @@
 #include "result/closing/mesh_error.hpp"
 #include "result/closing/mixity_error.hpp"
 #include "result/closing/resolution.hpp"
+#include "result/closing/rotations.hpp"
 #include "result/closing/search_limits.hpp"
 #include "result/fields/bulk_facts.hpp"
 #include "result/history/jumps.hpp"
@@ -24,8 +25,8 @@ namespace cli {
 struct Closing {
     std::vector<Jump> jumps;
     Balance balance;
-    bool follows_load = false;    // within each step
-    bool small_rotations = true;  // kinematics = linear
+    bool follows_load = false;  // within each step
+    SmallRotations small;
     MixityError mixity_error;
     SearchLimits search;
     LoadDrops load_drops;
@@ -38,8 +39,9 @@ struct Closing {
     BulkFacts bulk;                     // of the steps with fields
 };
 
+// of_end: the state that the solver shows is the end, and this process knows all of it.
 Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene, std::string_view history,
-                   const BulkFacts& bulk);
+                   const BulkFacts& bulk, bool of_end);
 // Each fact once, without ends of line.
 std::vector<std::string> closing_lines(const Closing& closing, const Scene& scene);
 

@@ -17,7 +17,6 @@ namespace cli {
 namespace {
 
 constexpr double resolving_pairs = 3.0;
-constexpr double small_rotation = 0.1;
 constexpr double told_pops = 0.01;  // of the work
 constexpr double stiffest =
     100.0;  // times the least: a further digit of the layer's stiffness is not worth its rounding
@@ -201,12 +200,6 @@ std::string pops_line(const Pops& pops) {
         "warning: {} popped one by one and released {} of the work: the mesh does not resolve the process zone (use "
         "smaller cells or less strength, which `delam check` proposes)",
         counted(pops.pairs, "pair"), percent_text(pops.released / pops.work));
-}
-
-std::string rotation_line(double largest) {
-    if (!(largest > small_rotation)) return "";
-    return fmt::format("warning: cells rotate by up to {:.3g} rad: the error of the strains is about {:.2g}", largest,
-                       0.5 * largest * largest);
 }
 
 }  // namespace cli

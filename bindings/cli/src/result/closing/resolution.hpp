@@ -36,7 +36,5 @@ struct Pops {
 Pops pops_of(const Rows& rows);
 // "" where they released little.
 std::string pops_line(const Pops& pops);
-// "" below 0.1 rad.
-std::string rotation_line(double largest);
 
 }  // namespace cli

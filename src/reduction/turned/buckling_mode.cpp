@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evolution/minimise/buckling_mode.hpp"
+#include "reduction/turned/buckling_mode.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -12,10 +13,6 @@ namespace delam {
 
 namespace {
 
-// The residual K^-1 G v - factor v, over factor v, both in the energy of K: the error of the factor is its square. (The
-// step of examples/blister that buckles takes 14, 16 and 18 solves with 1e-3, 1e-6 and 1e-9; critical loads agree to
-// 3e-7, the states that follow to 1e-10.)
-constexpr double mode_tolerance = 1e-6;
 // Modes of equal factors converge late; with more vectors than that they are known well enough to descend along. (Half
 // and twice give the same digits of examples/blister and pass verify/cases/test_buckling.)
 constexpr std::size_t most_vectors = 120;
@@ -111,7 +108,7 @@ void orient(std::span<double> mode) {
     }
 }
 
-BucklingMode buckling_mode(std::size_t size, const Apply& solve, const Apply& soften) {
+BucklingMode buckling_mode(std::size_t size, const Apply& solve, const Apply& soften, const ModeAccuracy& accuracy) {
     using Grows = KrylovSpace::Grows;
     BucklingMode mode;
     KrylovSpace space(first_force(size));
@@ -125,8 +122,9 @@ BucklingMode buckling_mode(std::size_t size, const Apply& solve, const Apply& so
         grows = space.extend(solve(space.force()));
         mode.factor = found.value.back();
         mode.converged =
-            grows == Grows::complete || (grows == Grows::yes && space.beyond() * std::abs(found.vector(last, last)) <=
-                                                                    mode_tolerance * std::abs(mode.factor));
+            grows == Grows::complete ||
+            (grows == Grows::yes && space.beyond() * std::abs(found.vector(last, last)) <=
+                                        accuracy.tolerance * std::max(accuracy.least, std::abs(mode.factor)));
     }
     mode.displacement = space.combined(column(found.vector, found.vector.columns - 1));
     orient(mode.displacement);

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "result/closing/rotations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "model/call.hpp"
+#include "result/history/concept.hpp"
+#include "text/say.hpp"
+
+namespace cli {
+
+namespace {
+
+// Errors of loads and energies are .3 to 1.4 times the estimate (kinematics = linear against corotational in
+// examples/dcb-elastica, peel and enf): half a per cent is told, as a rotation of 0.1 rad is.
+constexpr double told_share = 0.005;
+constexpr double large_rotation = 0.1;  // rad
+// Below a tenth of the critical stresses, bending grows by at most a tenth, 1 / (1 - ratio).
+constexpr double near_critical = 0.1;
+
+}  // namespace
+
+SmallRotations small_rotations_of(const Model& model, delam_solver* solver, const Scene& scene, bool of_end) {
+    SmallRotations small;
+    small.assumed = option_text(solver, "kinematics") == "linear";
+    if (!small.assumed || !of_end) return small;
+    const auto value = [&](const char* key, double& to) {
+        call(model.context.get(), delam_solver_value(solver, key, &to), std::string(key));
+    };
+    value("rotation_max", small.rotation);
+    value("rotation_error", small.error);
+    const bool asked_for = std::any_of(scene.options.begin(), scene.options.end(),
+                                       [](const SolverOption& option) { return option.key == "kinematics"; });
+    if (!asked_for) value("buckling_ratio", small.buckling);
+    return small;
+}
+
+std::string rotation_line(const SmallRotations& small, double largest) {
+    if (!small.assumed) return "";
+    largest = std::max(largest, small.rotation);
+    const double of_rotation = 0.5 * largest * largest;
+    if (largest > large_rotation && !(small.error > of_rotation))
+        return fmt::format("warning: cells rotate by up to {:.3g} rad: the error of the strains is about {:.2g}",
+                           largest, of_rotation);
+    if (!(small.error > told_share)) return "";
+    return fmt::format(
+        "warning: cells rotate by up to {:.3g} rad, and at the end the stresses do {} of the bodies' energy as work on "
+        "these rotations, which small rotations leave out (solver.kinematics = \"corotational\" does not)",
+        largest, percent_text(small.error));
+}
+
+std::string critical_line(const SmallRotations& small) {
+    if (!(small.buckling > near_critical)) return "";
+    if (small.buckling > 1.0)
+        return fmt::format(
+            "warning: the stresses at the end are {:.3g} times those at which the bodies buckle: with small rotations "
+            "they do not, solver.kinematics = \"corotational\" lets them",
+            small.buckling);
+    return fmt::format(
+        "warning: the stresses at the end are {:.2g} of those at which the bodies buckle, and increase bending by up "
+        "to "
+        "{}, which small rotations leave out (solver.kinematics = \"corotational\" does not)",
+        small.buckling, percent_text(small.buckling / (1.0 - small.buckling)));
+}
+
+}  // namespace cli
