@@ -13,7 +13,7 @@ from command import Trouble  # noqa: E402
 from measured.columns import found  # noqa: E402
 from measured.curve_data import CurveData, scale_of  # noqa: E402
 from measured.loops import monotone, turning_points  # noqa: E402
-from measured.table_file import read_table  # noqa: E402
+from measured.one_test import read_test  # noqa: E402
 from measured.units import kind_of, quantity, title_and_unit  # noqa: E402
 
 GIVEN = SimpleNamespace(columns=None, scale=1.0, x_scale=1.0, width="", loops="cut", x="load", y="reaction", slack="find",
@@ -75,7 +75,7 @@ def variants():
     plain = CurveData(FILES["a German machine"][0], GIVEN, ("", ""))
     expect(np.allclose(plain.x, X) and np.allclose(plain.y, Y * 1e-3) and plain.named_units == ["mm", "kN"],
            "without units of the scene the numbers stay")
-    table = read_table(FILES["a column of cracks with gaps"][0])
+    table = read_test(FILES["a column of cracks with gaps"][0])
     expect(found(table, "crack") == [], "an empty column is none")
 
 
@@ -97,7 +97,7 @@ def refusals():
     refused("a;b\n1;2\n2;x\n3;4\n", 'row 2 of the numbers (line 3) has "x"')
     refused("a;b\n1;2\n2;3;4\n3;4\n", "row 2 of the numbers (line 3) has 3 columns, 2 are expected")
     refused("a;b\n1;2\n2;3\n", 'there is no column "weg"; it has: a, b', columns=["weg", "b"])
-    refused("a;b\n2;2\n1;3\n", "must increase")
+    refused("a;b\n2;2\n2;3\n", "must increase")
     refused("a;b\0\n2;2\n", "zero byte")
     refused("a;b\n1;2\n2;3\n", "--slack 3kg: a length is expected, such as 0.3mm", slack="3kg")
     refused("a;b\n1;2\n2;3\n", "--slack 3m leaves no points: x ends at 2", slack="3m")
