@@ -199,7 +199,7 @@ void add_sweep(CLI::App& app, Arguments& into, Commands& of) {
     of.sweep->footer(footer);
 }
 
-// Which test of a file of several.
+// Adds the option that chooses a test of a file with several.
 void add_specimen(CLI::App& command, Study& study) {
     add_several(
         command, "--specimen", study.specimen,
