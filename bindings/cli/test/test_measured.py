@@ -52,7 +52,7 @@ FILES = {
                           ("times 0.0254", "times 4.44822"), True),
     "text behind": (file_of("displacement_mm,force_N\n" + rows(",") + "Test ended by operator\n"), ("1 line of text behind",), True),
     "the load first": (file_of("Load [N],Displacement [mm]\n" + rows(",", x=Y, y=X)), ('x is "Displacement" in mm',), True),
-    "our own": (file_of("load,reaction\n" + rows(",", x=X / 1e3)), ('x is "load", y is "reaction"',), False),
+    "our own": (file_of("load,reaction\n" + rows(",", x=X / 1e3)), ('x is "load", y is "reaction"', "the file names no unit of x and y: numbers count in those of the scene (m, N)"), False),
     "blanks": (file_of("# measured\n" + rows("   ", x=X / 1e3)), ("blanks", "column 1"), False),
     "loads per width": (file_of("Extension (mm),Load (N/mm)\n" + rows(",", y=Y / 1e3)), ("times 1000 is in N/m",), True),
     "compression": (file_of("Weg [mm];Kraft [N]\n" + rows(";", x=-X, y=-Y)), ("x is negative, its sign is turned", "y is negative"), True),

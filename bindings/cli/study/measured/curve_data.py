@@ -83,6 +83,9 @@ class CurveData:
         said = [f"x is {self.names[0]}, y is {self.names[1]}", *table.said]
         self.force_unit = table.units[y]
         self.named_units = [unit for unit in (table.units[x], table.units[y]) if kind_of(unit)[0]]
+        nameless = [name for name, k in zip("xy", (x, y)) if not table.units[k]]
+        if nameless and all((length, force)):
+            said.append(f"the file names no unit of {' and '.join(nameless)}: numbers count in those of the scene ({length}, {force})")
         kind = "time" if given.x == "time" else "length"
         self._require_kinds(table, x, y, given)
         # A scene in the plane has loads per width, and so may a table.

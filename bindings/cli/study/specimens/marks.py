@@ -16,7 +16,7 @@ def size_of(table, k, text, kind):
     if not text:
         raise Trouble(f"{table.path}: {label(table, k)} has no unit: --units mm N names those of displacement and load")
     if kind_of(text)[0] != kind:
-        raise Trouble(f"{table.path}: {label(table, k)}: {text[:60]} is no unit of {kind}")
+        raise Trouble(f"{table.path}: {label(table, k)}: {text[:60]} is no unit of {kind} (--columns X Y takes other columns)")
     return kind_of(text)[1]
 
 
