@@ -84,6 +84,8 @@ def files():
     expect(table.lines[0] == 9 and table.titles == ["Time", "Extension", "Load"], f"results of as many columns before it: {table.lines[0]}")
     bad = "Time (s),Extension (mm),Load (N)\n" + rows().replace(f"{P[20]:.3f}", "12:x", 1)
     refused("a wrong cell", ("row 21 of the numbers (line 22)", '"12:x"', "correct it, or leave the cell empty"), read_test, file_of(bad))
+    last = "Time (s),Extension (mm),Load (N)\n" + rows() + "20,4.1,x\n"
+    refused("a wrong last row", ("row 41 of the numbers (line 42)", '"x"'), read_test, file_of(last))
 
 
 HEADER = "Data Header:\tTime:\t3.4\tSec\nData Acquisition: Timed\nTime\tAxial Displacement\tAxial Force\nSec\tmm\tN\n"

@@ -147,6 +147,9 @@ def read_tables(path):
     runs = _runs(lines, form)
     for run, following in zip(runs, runs[1:]):
         _require_rows(path, lines, form, run, following[0])
+    end = runs[-1][1]
+    if end < len(lines) and number_of(cells_of(lines[end][1], form.separator)[0], form.decimal) is not None:
+        _require_rows(path, lines, form, runs[-1], end + 1)  # a last row with a fault: results begin with a word
     longest = max(end - begin for begin, end in runs)
     least = max(LEAST_ROWS, LEAST_PART * longest) if longest >= LEAST_ROWS else longest
     runs = [(begin, end) for begin, end in runs if end - begin >= least]
