@@ -11,7 +11,8 @@ from measured.units import kind_of, title_and_unit
 
 TRIED = 2000  # lines that choose among the forms: more than a preamble has
 # Fewer rows, or a smaller part of the longest table, are no table of a test: machines write results before and behind it,
-# a row for a specimen. Half and twice of either find the same in test_tables.py.
+# a row for a specimen. In test_tables.py, 2 rows take such a results table for one more test; 10 rows, and half and twice of
+# the part, find the same.
 LEAST_ROWS, LEAST_PART = 5, 0.05
 
 
