@@ -81,7 +81,7 @@ def staged(given, source):
     """Fills the folder that Sphinx reads."""
     stage = Stage(ROOT, SITE, source, given.work or given.out / "work")
     pages = generate.pages(given.build)
-    stage.generated = set(generate.PAGES)
+    stage.generated = generate.PAGES
     stage.gather()
     for name, text in pages.items():
         stage.put(name, text)

@@ -89,7 +89,8 @@ def required(given):
     needed = list(KINDS[kind][1])
     if kind not in ("fibre",) and "young" not in sheet:
         needed += [key for key in PLY if key not in DEFAULTS]
-    missing = [option(key) for key in needed if key not in sheet]
+    others = {known: name for kinds, name, known, _ in OTHER_NAMES if kind in kinds}
+    missing = [option(key) + (f" (or {option(others[key])})" if key in others else "") for key in needed if key not in sheet]
     if kind == "laminate" and not given["layup"]:
         missing.append("--layup")
     if missing:

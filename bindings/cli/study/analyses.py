@@ -177,10 +177,11 @@ class Check:
 
 
 def last_words(out):
-    """The last message of an analysis."""
-    lines = read_end(out + ".log", LAST_WORDS).decode("utf-8", "surrogateescape").split("\n")
-    lines = [line for line in lines if line.startswith("delam: ")]
-    return lines[-1] if lines else "no message"
+    """The last message of an analysis, or what else its log ends with: the system speaks where the program cannot."""
+    text = read_end(out + ".log", LAST_WORDS).decode("utf-8", "surrogateescape")
+    lines = [line for line in text.split("\n") if line.strip() and not line.startswith(LOG_BEGINS)]
+    said = [line for line in lines if line.startswith("delam: ")] or lines
+    return said[-1] if said else f"the analysis ended without a message ({out}.log)"
 
 
 def read_history(out):

@@ -336,7 +336,7 @@ def text_of(row, search, level, digits=6, between=" "):
         return f"{low:.{digits}g} to {high:.{digits}g}{unit}"
 
     text = f"{row['key']} = {row['value']:.{digits}g}{unit}, {100 * level:g} % interval "
-    of_held = (" (of this {:.2g} below and {:.2g} above for parameters that are held)".format(*row["of_held"])
+    of_held = (" (of this {:.2g} below and {:.2g}{} above for parameters that are held)".format(*row["of_held"], unit)
                if any(row.get("of_held", [])) else "")
     if "interval_with_held" in row:
         return (f"{text}{ends('interval_with_held')} with errors of {100 * search.part:g} % in each number that is held,"
@@ -399,6 +399,15 @@ def counted(number, what):
     return f"{number} {what}{'' if number == 1 else 's'}"
 
 
+def specimens_of(given):
+    """Which test of its file each curve is, "" where the file has one."""
+    words = given.specimen or [""]
+    if len(words) not in (1, len(given.data)):
+        raise Trouble(f"--specimen: {counted(len(words), 'name')} for {counted(len(given.data), 'file')}: one for all, or one for each, "
+                      "is expected")
+    return words * (len(given.data) // len(words))
+
+
 def read_all(given):
     """The scenes and their data."""
     if len(given.data) != len(given.scenes):
@@ -408,9 +417,9 @@ def read_all(given):
             raise Trouble(f"{path}: write the scene of a deck first: delam import {path} --out scene.toml")
     scenes = [read_scene(path) for path in given.scenes]
     data = []
-    for path, scene in zip(given.data, scenes):
+    for path, scene, specimen in zip(given.data, scenes, specimens_of(given)):
         units = units_of_scene(scene, given.set)
-        one = CurveData(path, given, units, scale_of(given, units[0]))
+        one = CurveData(path, given, units, scale_of(given, units[0]), specimen)
         data.append(one)
         say(one.said)
         if not all(units) and any(one.named_units):

@@ -18,12 +18,13 @@ def draw_fit(out, which, model, curve, history, jumps, about, found):
     above.plot(history[model.x_name], history[model.y_name], color=BLUE, label="model")
     for k, x in enumerate(jumps):
         above.axvline(x, color=RED, linewidth=0.8, linestyle=":", label="jump" if k == 0 else None)
-    above.set_ylabel(axis(model.y_name, force if model.y_name.startswith("reaction") else ""))
+    unit = force if model.y_name.startswith("reaction") else ""
+    above.set_ylabel(axis(model.y_name, unit))
     above.legend()
     lines = [line for words in found for line in textwrap.wrap(words, TITLE)]
     above.set_title("\n".join([os.path.basename(model.files[which]), *lines]), fontsize=9)
     below.axhline(0.0, color=GREY, linewidth=0.8)
     below.plot(data.x, curve - data.y, "o", color=BLUE, markersize=3)
-    below.set_ylabel("model - data")
+    below.set_ylabel("model - data" + f"\n[{unit}]" * bool(unit))
     below.set_xlabel(axis(model.named_x(which)[0], length if model.x_name.startswith("load") else ""))
     save(figure, os.path.join(out, "fit.png" if len(model.data) == 1 else f"fit-{which + 1}.png"))

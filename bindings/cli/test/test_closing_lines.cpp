@@ -170,7 +170,17 @@ void jumps() {
     expect(lines.size() == 11, fmt::format("ten largest and the rest: {} lines", lines.size()));
     expect_line(lines.front(),
                 "jump at time 0.1 (load_a 0, load_b 0): interface \"a \"b\", c\" debonded by 0.5 m², 20 J "
-                "released, reaction_a 3 to 2.5");
+                "released, reaction_a 3 to 2.5 N");
+    all.front().reaction_before = {30450.0, 1.0};
+    all.front().reaction_after = {25000.0, 0.5};
+    cli::Scene plane = scene_of(2, {"a", "b"});
+    const std::string large = cli::jump_lines(all, plane, 100).front();
+    expect(large.ends_with(", reaction_a 30.45 to 25 kN/m, reaction_b 1 to 0.5 N/m"), "units per width: " + large);
+    plane.units = {};
+    expect(cli::jump_lines(all, plane, 100).front().ends_with(", reaction_a 30450 to 25000, reaction_b 1 to 0.5"),
+           "no unit where the scene names none");
+    all.front().reaction_before = {3.0, 1.0};
+    all.front().reaction_after = {2.5, 0.99};
     expect(lines[1].starts_with("jump at time 0.3 "), "in the order of time, but for the smallest");
     expect_line(lines.back(), "2 smaller jumps debonded by 1 m² and released 6 J in all (jumps.csv)");
     all.resize(10);

@@ -173,8 +173,9 @@ def wrong():
     here = folder()
     path = raw(os.path.join(here, "a.csv"), ["x (mm)", "F (N)"], (np.arange(9), np.arange(9)))
     words = ["--width", "25mm", "--arm", "1.5mm", "--notch", "50mm", "--out", os.path.join(here, "out")]
-    expect_error(start("evaluate", "dcb", path, *words[2:]), 2, "dcb needs --width")
-    expect_error(start("evaluate", "enf", path, *words), 2, "enf needs --span")
+    expect_error(start("evaluate", "dcb", path, *words[2:]), 2, "dcb needs --width, such as 25mm$")
+    expect_error(start("evaluate", "enf", path, *words), 2, "enf needs --span .or --half-span., such as 100mm")
+    expect_error(start("evaluate", "dcb", path, *words[:2], *words[4:]), 2, "dcb needs --arm .or --thickness., such as 1.5mm")
     expect_error(start("evaluate", "dcb", path, "--width", "25", *words[2:]), 2, "--width 25: a number > 0 with its unit")
     expect_error(start("evaluate", "enf", path, *words, "--span", "80mm"), 2, "less than the half span")
     expect_error(start("evaluate", "dcb", path, *words, "--units", "N", "N"), 2, "N is no unit of length")
@@ -228,9 +229,9 @@ def drawing():
     kept = []
     pictures.save = lambda figure, path: kept.append(figure)
     answer = Answer("method", np.array([1e-3, 2e-3, 3e-3]), np.full(3, 0.03), np.array([-5.0, 300.0, 400.0]), lambda d, p, a: p, {})
-    points = types.SimpleNamespace(points=[Point("NL", 1, 1e-3, -5.0), Point("5 %", 1, 1e-3, 300.0), Point("max", 1, 1e-3, 400.0)], zero=0.0)
-    curve = types.SimpleNamespace(displacement=np.arange(3.0), load=np.arange(3.0), whole=None)
-    pictures.draw("nowhere", curve, [answer], points, [])
+    points = types.SimpleNamespace(points=[Point("NL", 1, 1e-3, -5.0), Point("5 %", 1, 1e-3, 300.0), Point("max", 1, 1e-3, 400.0)], zero=0.1, compliance=0.5)
+    curve = types.SimpleNamespace(displacement=np.arange(3.0), load=np.arange(3.0), whole=None, path="/a/raw.csv")
+    pictures.draw("nowhere", "a test", curve, [answer], points, [])
     right = kept[0].axes[1]
     expect([text.get_text() for text in right.get_xticklabels()] == ["NL", "5 %", "max"] and right.lines[0].get_ydata().tolist() == [-5, 300, 400]
            and right.get_xlabel().endswith("crack 30 mm"), "toughnesses of one crack stand over the points")
@@ -241,13 +242,16 @@ def drawing():
     points.points = [Point("NL", 1, 1e-3, 10.0), Point("5 %", 1, 1e-3, 10.0), Point("max", 1, 1e-3, 10.0)]
     grows = Answer("effective crack", np.array([1e-3, 2e-3]), np.array([0.03, 0.04]), np.array([700.0, 710.0]), lambda d, p, a: 70.0 * p, {})
     curve.whole = np.array([0.0, 1.0, 0.2, 3.0]), np.array([0.0, 1.0, 0.1, 3.0])
-    pictures.draw("nowhere", curve, [answer, grows], points, [])
+    pictures.draw("nowhere", "a test", curve, [answer, grows], points, [])
     column = kept[1].axes[1].lines[0]
     expect(kept[1].axes[1].get_xlabel() == "crack length (mm)" and kept[1].axes[1].lines[1].get_xdata().tolist() == [30, 40], "else over the crack")
     expect(kept[1].axes[0].lines[0].get_xdata().tolist() == [0, 1000, 200, 3000], "unloadings are drawn")
     expect(column.get_ydata().tolist() == 3 * [700.0] and column.get_linestyle() == "None" and kept[1].axes[1].get_ylim()[1] < 1e3,
            f"a calibration has its values at the points, not all of the load: {column.get_ydata()}")
-    sizes = [line.get_markersize() for line in kept[0].axes[0].lines[1:]]
+    ends = [line.get_xdata()[-1] for line in kept[0].axes[0].lines if line.get_label() in ("initial line", "5 % offset")]
+    expect(np.allclose(ends, [1100, 1150]), f"the lines of the initial compliance and of the offset: {ends}")
+    expect([text.get_text() for text in kept[0].texts] == ["raw.csv: a test"], "file and test are named")
+    sizes = [line.get_markersize() for line in kept[0].axes[0].lines if line.get_linestyle() == "None"]
     expect(len(set(sizes)) == 3, f"points that coincide are told apart: {sizes}")
 
 

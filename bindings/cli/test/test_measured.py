@@ -13,7 +13,7 @@ from command import Trouble  # noqa: E402
 from measured.columns import found  # noqa: E402
 from measured.curve_data import CurveData, scale_of  # noqa: E402
 from measured.loops import monotone, turning_points  # noqa: E402
-from measured.table_file import read_table  # noqa: E402
+from measured.one_test import read_test  # noqa: E402
 from measured.units import kind_of, quantity, title_and_unit  # noqa: E402
 
 GIVEN = SimpleNamespace(columns=None, scale=1.0, x_scale=1.0, width="", loops="cut", x="load", y="reaction", slack="find",
@@ -52,7 +52,7 @@ FILES = {
                           ("times 0.0254", "times 4.44822"), True),
     "text behind": (file_of("displacement_mm,force_N\n" + rows(",") + "Test ended by operator\n"), ("1 line of text behind",), True),
     "the load first": (file_of("Load [N],Displacement [mm]\n" + rows(",", x=Y, y=X)), ('x is "Displacement" in mm',), True),
-    "our own": (file_of("load,reaction\n" + rows(",", x=X / 1e3)), ('x is "load", y is "reaction"',), False),
+    "our own": (file_of("load,reaction\n" + rows(",", x=X / 1e3)), ('x is "load", y is "reaction"', "the file names no unit of x and y: numbers count in those of the scene (m, N)"), False),
     "blanks": (file_of("# measured\n" + rows("   ", x=X / 1e3)), ("blanks", "column 1"), False),
     "loads per width": (file_of("Extension (mm),Load (N/mm)\n" + rows(",", y=Y / 1e3)), ("times 1000 is in N/m",), True),
     "compression": (file_of("Weg [mm];Kraft [N]\n" + rows(";", x=-X, y=-Y)), ("x is negative, its sign is turned", "y is negative"), True),
@@ -75,7 +75,7 @@ def variants():
     plain = CurveData(FILES["a German machine"][0], GIVEN, ("", ""))
     expect(np.allclose(plain.x, X) and np.allclose(plain.y, Y * 1e-3) and plain.named_units == ["mm", "kN"],
            "without units of the scene the numbers stay")
-    table = read_table(FILES["a column of cracks with gaps"][0])
+    table = read_test(FILES["a column of cracks with gaps"][0])
     expect(found(table, "crack") == [], "an empty column is none")
 
 
@@ -97,7 +97,7 @@ def refusals():
     refused("a;b\n1;2\n2;x\n3;4\n", 'row 2 of the numbers (line 3) has "x"')
     refused("a;b\n1;2\n2;3;4\n3;4\n", "row 2 of the numbers (line 3) has 3 columns, 2 are expected")
     refused("a;b\n1;2\n2;3\n", 'there is no column "weg"; it has: a, b', columns=["weg", "b"])
-    refused("a;b\n2;2\n1;3\n", "must increase")
+    refused("a;b\n2;2\n2;3\n", "must increase")
     refused("a;b\0\n2;2\n", "zero byte")
     refused("a;b\n1;2\n2;3\n", "--slack 3kg: a length is expected, such as 0.3mm", slack="3kg")
     refused("a;b\n1;2\n2;3\n", "--slack 3m leaves no points: x ends at 2", slack="3m")

@@ -154,7 +154,7 @@ def units():
     expect(code == 0 and "take" not in error, f"a laminate takes all of its sheet: {error}")
     code, _, error = delam("new", *sheet, "--notch", "2mm", "--half-span", "50mm")
     expect(code == 0 and "warning: laminate does not take --half-span, --notch: not used" in error, f"numbers that do nothing: {error}")
-    expect_error(delam("new", "enf", *good), 2, "enf needs --half-span, --GIIc as well")
+    expect_error(delam("new", "enf", *good), 2, "enf needs --half-span .or --span., --GIIc as well")
     code, _, error = delam("new", "dbc", *good)
     expect(code == 2 and "dbc" in error and "dcb" in error, "an unknown kind")
     scene, _, _ = made("dcb", good)

@@ -179,7 +179,8 @@ def wrong_words():
     good = "load,force\n0.001,1\n0.002,2\n"
     with_data("", "the file is empty")
     with_data("load,force\n0.001,1\n", "at least 2 points")
-    with_data("load,force\n0.002,1\n0.001,2\n", "\"load\" must increase")
+    with_data("load,force\n0.002,1\n0.002,2\n", "\"load\" must increase")
+    with_data("load,force\n0.002,2\n0.001,1\n", "\"load\" must increase")
     with_data("load,force\n0.001,1\n0.002,x\n", "row 2 of the numbers")
     with_data("load,force\n0.001,1\n0.002,inf\n", "is inf: 0, or a finite number")
     with_data("load,force\n1.0,1\n2.0,2\n", "goes from 1 to 2, .* from 0 to 0.006: let the values .* are the units the same")

@@ -163,9 +163,11 @@ class Staging(unittest.TestCase):
     def test_all_pages_and_documents(self):
         with tempfile.TemporaryDirectory() as out:
             stage = Stage(ROOT, SITE, pathlib.Path(out) / "source", None)
-            stage.generated = set(generate.PAGES)
+            stage.generated = generate.PAGES
             stage.gather()
             self.assertGreater(stage.links["inside"], 170)
+            index = (stage.out / "reference/index.md").read_text(encoding="utf-8")
+            self.assertIn("(options.md)", index, "the file of a generated page leads to that page")
             self.assertGreater(len(stage.wanted), 30)
 
     def test_dead_links(self):

@@ -3,7 +3,11 @@
 import json
 import subprocess
 
-PAGES = ("reference/options.md", "reference/laws.md", "reference/scene-keys.md", "notebook/first_steps.md")
+# Each with the file of the tree that has the same: pages link that file, so that no link is dead where the tree itself
+# is read, and the built site leads to the page.
+PAGES = {"src/scene/options.inc": "reference/options.md", "src/law/law_parameters.cpp": "reference/laws.md",
+         "bindings/cli/src/scene/table/scene_keys.cpp": "reference/scene-keys.md",
+         "bindings/python/notebooks/first_steps.ipynb": "notebook/first_steps.md"}
 
 
 def asked(build, *words):

@@ -44,7 +44,7 @@ class Stage:
     def __init__(self, root, site, out, results):
         self.root, self.site, self.out, self.results = root, site, out, results
         self.pages = site / "pages"
-        self.documents, self.todo, self.files, self.generated = {}, [], set(), set()
+        self.documents, self.todo, self.files, self.generated = {}, [], set(), {}
         self.places, self.wanted = {}, []
         self.links = {"inside": 0, "outside": set()}
         shutil.rmtree(out, ignore_errors=True)
@@ -152,11 +152,11 @@ class Stage:
         return os.path.relpath(found, here) + (f"#{anchor}" if anchor else "")
 
     def generated_page(self, path, source):
-        """The name of a page that build.py makes, if this is one."""
-        if self.pages not in source.parents:
+        """The name of the page that build.py makes of a file that a page links; None: it makes none."""
+        linked = (source.parent / path).resolve()
+        if self.pages not in source.parents or self.root not in linked.parents:
             return None
-        wanted = os.path.normpath(source.relative_to(self.pages).parent / path)
-        return wanted if wanted in self.generated else None
+        return self.generated.get(str(linked.relative_to(self.root)))
 
     def file(self, path, source, place):
         linked = (source.parent / path).resolve()

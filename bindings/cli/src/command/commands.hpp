@@ -41,10 +41,10 @@ struct Study {
     std::int64_t jobs = 1;
     std::vector<std::string> vary;  // of a sweep
     std::int64_t latin = 0, seed = 1;
-    std::vector<std::string> data, parameters, columns;  // of a fit
+    std::vector<std::string> data, parameters, columns, specimen;  // of a fit
     std::string x = "load", y = "reaction", weights = "curve", width, loops = "cut", slack = "find", compliance;
     double scale = 1.0, x_scale = 1.0, confidence = 0.95, held = 0.1;
-    std::string test, crack, beside;  // of an evaluation
+    std::string test, crack, marks, beside;  // of an evaluation
     std::map<std::string, std::string> sheet;
     std::vector<std::string> units, calibration;
 };

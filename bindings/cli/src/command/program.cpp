@@ -199,6 +199,15 @@ void add_sweep(CLI::App& app, Arguments& into, Commands& of) {
     of.sweep->footer(footer);
 }
 
+// Adds the option that chooses a test of a file with several.
+void add_specimen(CLI::App& command, Study& study) {
+    add_several(
+        command, "--specimen", study.specimen,
+        "which test of a file that has several: its name, or its number from 1 on; one for all files, or one for "
+        "each")
+        ->type_name("NAME");
+}
+
 void add_fit(CLI::App& app, Arguments& into, Commands& of) {
     Study& study = into.study;
     of.fit = app.add_subcommand("fit", "find numbers of the scene, above all of its laws, from measured load curves");
@@ -223,6 +232,7 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
                      "columns of the data (default: those whose titles say displacement and load, or the first two)")
         ->type_name("X Y")
         ->expected(2);
+    add_specimen(*of.fit, study);
     of.fit
         ->add_option("--width", study.width,
                      "width of the specimen, by which the y of the data is divided, where a plane scene has forces per "
@@ -308,6 +318,11 @@ void add_evaluate(CLI::App& app, Arguments& into, Commands& of) {
         ->expected(2);
     of.evaluate->add_option("--crack", study.crack, "column with crack lengths (default: that whose title says so)")
         ->type_name("COLUMN");
+    of.evaluate
+        ->add_option("--marks", study.marks,
+                     "a sheet of crack lengths apart, with the time or the displacement of each beside it")
+        ->type_name(file_value);
+    add_specimen(*of.evaluate, study);
     add_several(
         *of.evaluate, "--calibration", study.calibration,
         "of enf: a file that was measured at another length of the crack, e.g. 20mm=a20.csv; given twice or more")

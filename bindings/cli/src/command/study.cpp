@@ -57,6 +57,8 @@ int study(const Study& of) {
                                {"sheet", of.sheet},
                                {"units", of.units},
                                {"crack", of.crack},
+                               {"marks", of.marks},
+                               {"specimen", of.specimen},
                                {"calibration", of.calibration},
                                {"beside", of.beside},
                                {"confidence", of.confidence},

@@ -6,6 +6,7 @@ import numpy as np
 
 from command import Trouble, say
 from fit_model import Infeasible
+from measured.units import unit_of_key
 
 # From this roughness on the derivatives of an analysis are those of teeth, one for each pair that the front passes, and
 # not of the curve. On a DCB with 4 and 18 pairs in the zone (roughness 0.97 and 0.77) they have 0.11 and 0.55 of what
@@ -101,7 +102,8 @@ class Misfit:
         key = (self.model.fine, np.asarray(at).tobytes())
         if key not in self.known:
             found, text = self._evaluate(at, not self.known)
-            shown = "  ".join(f"{p.path} {v:.4g}" for p, v in zip(self.model.parameters, self.values(at)))
+            shown = "  ".join(f"{p.path} {v:.4g}{unit_of_key(p.path, self.model.units)}"
+                              for p, v in zip(self.model.parameters, self.values(at)))
             coarse = self.model.begins_coarse
             say(f"analysis {self.count}{' with coarse steps' if coarse else ''}: {text}  {shown}")
             self.known[key] = found

@@ -21,7 +21,7 @@ WORDS = {
 }
 
 
-def _words(title):
+def words_of(title):
     """In small letters, with ss for ß: Rißlänge is the older spelling."""
     return re.findall(r"[^\W\d_]+", title.lower().replace("ß", "ss"))
 
@@ -29,7 +29,7 @@ def _words(title):
 def found(table, kind):
     """The columns whose titles have a word of the kind, the best first."""
     filled = [k for k, column in enumerate(table.columns) if np.isfinite(column).any()]
-    said = {k: _words(table.titles[k]) for k in filled}
+    said = {k: words_of(table.titles[k]) for k in filled}
     ranks = {k: min((WORDS[kind].index(word) for word in words if word in WORDS[kind]), default=None)
              for k, words in said.items()}
     if kind == "crack":  # "Crack opening displacement" is none
@@ -64,7 +64,7 @@ def choose(table, names=None, x_kind="displacement"):
         return [named(table, name) for name in names]
     x, y = found(table, x_kind), found(table, "force")
     if x_kind == "displacement" and not x and len(y) > 1:
-        loads = [k for k in y if "load" in _words(table.titles[k])]
+        loads = [k for k in y if "load" in words_of(table.titles[k])]
         x, y = loads, [k for k in y if k not in loads]
     x = x or _by_units(table, x_kind)
     y = [k for k in y or _by_units(table, "force") if k not in x[:1]]

@@ -8,7 +8,7 @@ from command import Trouble
 from measured.columns import choose, label
 from measured.loops import Way
 from measured.slack import find_slack
-from measured.table_file import read_table
+from measured.one_test import read_test
 from measured.units import kind_of, quantity
 
 
@@ -21,6 +21,25 @@ def in_units(table, column, unit, wanted, kind, said):
     if abs(factor - 1) > 1e-12:
         said.append(f"{label(table, column)} times {factor:.6g} is in {wanted}")
     return values * factor
+
+
+def left_out(rows):
+    return f"{rows} row{'s' * (rows > 1)} without both {'are' if rows > 1 else 'is'} left out"
+
+
+def upright(points, factors, said):
+    """x and y with which a test goes up and its load grows: compression is often written with negative signs, and a
+    crosshead that moves down counts down. A negative factor of an option keeps its signs. said gets what is turned."""
+    points = list(points)
+    if factors[1] > 0 and np.max(-points[1]) > 2 * max(np.max(points[1]), 0.0):
+        points[1] = -points[1]
+        said.append("y is negative, its sign is turned")
+    rises = np.sum(points[0][:int(np.argmax(np.abs(points[1]))) + 1][[0, -1]] * [-1, 1])
+    if factors[0] > 0 and rises < 0:
+        said.append(("x is negative" if np.max(points[0]) <= 0 else
+                     f"x goes down while the load grows, from {points[0][0]:.4g} on") + ", its sign is turned")
+        points[0] = -points[0]
+    return points
 
 
 def scale_of(given, length):
@@ -53,17 +72,20 @@ def in_scene(text, option, example, kind, units):
 class CurveData:
     """x is what the scene calls load, y what the model shall meet there, times `scale`; `at` is where along the way."""
 
-    def __init__(self, path, given, units=None, scale=1.0):
+    def __init__(self, path, given, units=None, scale=1.0, specimen=""):
         """given: columns, x_scale, loops ("cut" or "follow") and x, the column of the history. units: of length and
-        force of the scene, "" where it names none."""
+        force of the scene, "" where it names none. specimen: which test of the file."""
         self.path = path
         length, force = units or ("", "")
-        table = read_table(path)
+        table = read_test(path, specimen)
         x, y = choose(table, given.columns, "time" if given.x == "time" else "displacement")
         self.names = [label(table, x), label(table, y)]
         said = [f"x is {self.names[0]}, y is {self.names[1]}", *table.said]
         self.force_unit = table.units[y]
         self.named_units = [unit for unit in (table.units[x], table.units[y]) if kind_of(unit)[0]]
+        nameless = [name for name, k in zip("xy", (x, y)) if not table.units[k]]
+        if nameless and all((length, force)):
+            said.append(f"the file names no unit of {' and '.join(nameless)}: numbers count in those of the scene ({length}, {force})")
         kind = "time" if given.x == "time" else "length"
         self._require_kinds(table, x, y, given)
         # A scene in the plane has loads per width, and so may a table.
@@ -75,14 +97,14 @@ class CurveData:
         points = [in_units(table, x, table.units[x], "" if kind == "time" else length, kind, said)[there],
                   in_units(table, y, table.units[y], *of_load, said)[there]]
         if not there.all():
-            said.append(f"{int((~there).sum())} rows without both are left out")
+            said.append(left_out(int((~there).sum())))
         if len(points[0]) < 2:
             raise Trouble(f"{path}: at least 2 points are expected")
         for which, name, factor in ((0, "--x-scale", given.x_scale), (1, "--scale", scale)):
             self._require_numbers(self.names[which], points[which], "")
             points[which] = points[which] * factor
             self._require_numbers(self.names[which], points[which], f" times {name} {factor:g}")
-        points = self._upright(points, (given.x_scale, scale), said)
+        points = upright(points, (given.x_scale, scale), said)
         # The compliance of the machine counts for the whole load, before it is divided by the width.
         points = self._of_specimen(points, given, (length, force), given.scale / scale, said)
         self.rows = len(points[0])
@@ -98,15 +120,6 @@ class CurveData:
             if kind and expected and kind not in expected:
                 raise Trouble(f"{table.path}: {label(table, column)} is no {option} to compare with {quoted(name)} of the scene: "
                               f"a {' or a '.join(one.replace('/', ' per ') for one in expected)} is expected (--columns X Y)")
-
-    @staticmethod
-    def _upright(points, factors, said):
-        """A test in compression is often written with negative signs. A negative factor keeps its signs."""
-        for which, name in enumerate("xy"):
-            if factors[which] > 0 and np.max(-points[which]) > 2 * max(np.max(points[which]), 0.0):
-                points[which] = -points[which]
-                said.append(f"{name} is negative, its sign is turned")
-        return points
 
     def _of_specimen(self, points, given, units, per, said):
         """The points without what machine and fixture add to the displacement: their compliance, and the slack before the

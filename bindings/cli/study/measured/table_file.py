@@ -1,42 +1,51 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files of test machines: a table of numbers, whatever stands before it, and how its numbers are written.
-
-Machines write a preamble of names and settings, titles, a row of units, numbers with a point or a comma, and between
-them semicolons, tabs, commas or blanks, in UTF-8, UTF-16 or a code page of Windows. Which of these a file has is not
-guessed from its first lines: every way is tried, and the one counts that makes rows of numbers of the most lines.
-"""
-import collections
-import csv
-import re
+"""Files of test machines: tables of numbers, whatever stands before, between and behind them."""
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from _pictures.input_file import MOST_CURVE, quoted, read_bytes
 from command import Trouble
+from measured.number_forms import MISSING, NAMES, cells_of, form_of, number_of, row_of
 from measured.units import kind_of, title_and_unit
 
-# Separator, decimal sign; of two that make as many rows, the first.
-WAYS = (("\t", "."), ("\t", ","), (";", "."), (";", ","), (",", "."), (",", ","), (" ", "."), (" ", ","))
-NAMES = {"\t": "tabs", ";": "semicolons", ",": "commas", " ": "blanks"}
-
-TRIED = 2000  # lines that choose among the ways: more than a preamble has
-
-NUMBER = {".": re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?|[+-]?(?:nan|inf)", re.I),
-          ",": re.compile(r"[+-]?(?:\d+(?:\.\d{3})*(?:,\d+)?|,\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf)", re.I)}
-# A date, a time of the day, or both.
-STAMP = re.compile(r"\d{1,4}(?:[:/.-]\d{1,4}){2,}(?:[T ]+\d{1,2}(?::\d{1,2}){1,2})?(?:[.,]\d+)?(?:\s*[APap][Mm])?")
+TRIED = 2000  # lines that choose among the forms: more than a preamble has
+# Fewer rows, or a smaller part of the longest table, are no table of a test: machines write results before and behind it,
+# a row for a specimen. In test_tables.py, 2 rows take such a results table for one more test; 10 rows, and half and twice of
+# the part, find the same.
+LEAST_ROWS, LEAST_PART = 5, 0.05
 
 
 @dataclass
 class Table:
     """titles and units: a text for each column, "" where the file has none. columns: an array for each, NaN where a row
-    has nothing, or a date. said: what the file is like, for people."""
+    has nothing, or a date; texts: the words of the columns that have them. lines: the line of each row. above: the cells
+    of the line above the titles. name: of the specimen. blocks: of how many runs of rows it is. said: what the file is
+    like, for people."""
     path: str
     titles: list
     units: list
     columns: list
+    texts: dict
+    lines: np.ndarray
+    above: list = field(default_factory=list)
+    name: str = ""
+    blocks: int = 1
     said: list = field(default_factory=list)
+
+    def part(self, rows, columns=None, name=""):
+        """Some of the rows and columns; columns: a range."""
+        chosen = list(range(len(self.columns))) if columns is None else list(columns)
+        return Table(self.path, [self.titles[k] for k in chosen], [self.units[k] for k in chosen],
+                     [self.columns[k][rows] for k in chosen],
+                     {at: [self.texts[k][row] for row in np.arange(len(self.lines))[rows]]
+                      for at, k in enumerate(chosen) if k in self.texts},
+                     self.lines[rows], [cell for k, cell in enumerate(self.above) if k in chosen], name, self.blocks, self.said)
+
+
+BINARY = ((b"PK\x03\x04", "a workbook (.xlsx) or another archive"), (b"\xd0\xcf\x11\xe0", "a workbook (.xls)"),
+          (b"\x1f\x8b", "a compressed file"))
+EXPORT = "export the test as text (CSV or TXT) from the program of the machine"
 
 
 def decoded(path):
@@ -45,60 +54,25 @@ def decoded(path):
         data = read_bytes(path, MOST_CURVE)
     except FileNotFoundError as error:
         raise Trouble(f"{path}: cannot be read: {error.strerror}") from error
-    for mark, name in ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16")):
-        if data.startswith(mark):
-            try:
-                return data.decode(name), "UTF-16"
-            except UnicodeDecodeError:
-                raise Trouble(f"{path}: begins as UTF-16, but is none") from None
+    for begin, what in BINARY:
+        if data.startswith(begin):
+            raise Trouble(f"{path}: this is {what}, and no text: {EXPORT}")
+    name = "utf-16" if data.startswith((b"\xff\xfe", b"\xfe\xff")) else ""
+    # Without a mark at its beginning: every other byte of numbers is a zero.
+    for begin, order in ((1, "utf-16-le"), (0, "utf-16-be")):
+        if not name and len(data) > 3 and data[begin::2].count(0) > 0.9 * (len(data) // 2):
+            name = order
+    if name:
+        try:
+            return data.decode(name), "UTF-16"
+        except UnicodeDecodeError as error:
+            raise Trouble(f"{path}: begins as UTF-16, but is none from byte {error.start} on: {EXPORT} again") from None
     if b"\0" in data:
-        raise Trouble(f"{path}: this is no text: it has a zero byte at {data.index(0)}")
+        raise Trouble(f"{path}: this is no text: it has a zero byte at {data.index(0)}: {EXPORT}")
     try:
         return data.decode("utf-8-sig"), ""
     except UnicodeDecodeError:
         return data.decode("cp1252", "replace"), "Latin-1 (Windows-1252)"
-
-
-def cells_of(line, separator):
-    """The cells of one line, without quotes and blanks around them."""
-    if separator == " ":
-        return line.split()
-    if '"' in line:
-        try:
-            return [cell.strip() for cell in next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])]
-        except csv.Error:
-            return [line]
-    return [cell.strip() for cell in line.split(separator)]
-
-
-def number_of(cell, decimal):
-    """A number as it is written; NaN for nothing and for dates; None: it is a text."""
-    if NUMBER[decimal].fullmatch(cell):
-        if decimal == ",":
-            cell = cell.replace(".", "").replace(",", ".") if "," in cell else cell
-        return float(cell.replace("d", "e").replace("D", "e"))
-    return float("nan") if not cell or STAMP.fullmatch(cell) else None
-
-
-def row_of(line, way, least=2):
-    """The numbers of a line, or None where it is no row of a table: a text, or fewer numbers than the least."""
-    row = [number_of(cell, way[1]) for cell in cells_of(line, way[0])]
-    if any(value is None for value in row) or sum(value == value for value in row) < least:
-        return None
-    return row
-
-
-def _way(lines):
-    """The way that makes most rows with one number of columns."""
-    best, most = None, 0
-    for way in WAYS:
-        if way[0] != " " and not any(way[0] in line for line in lines):
-            continue
-        widths = collections.Counter(len(row) for row in (row_of(line, way) for line in lines) if row is not None)
-        rows = widths.most_common(1)[0][1] if widths else 0
-        if rows > most:
-            best, most = way, rows
-    return best
 
 
 def _is_units(cells):
@@ -107,11 +81,15 @@ def _is_units(cells):
     return bool(texts) and sum(kind_of(text)[0] is not None for text in texts) > len(texts) / 2
 
 
-def _header(lines, separator, width):
+def _header(lines, form):
     """Titles and units of the columns from the lines that stand just before the numbers, and how many lines these are."""
+    width = form.width
     titles, units, taken = [""] * width, [""] * width, 0
-    for line in reversed(lines[-2:]):
-        cells = cells_of(line.lstrip("#"), separator)
+    for line in reversed(lines[-3:]):
+        cells = cells_of(line.lstrip("#"), form.separator)
+        if all(not cell or MISSING.fullmatch(cell) for cell in cells):  # a line of strokes
+            taken += 1
+            continue
         if len(cells) < 2 or len(cells) > width + 1 or not any(cells):
             break
         cells = (cells + [""] * width)[:width]
@@ -126,49 +104,81 @@ def _header(lines, separator, width):
     return titles, units, taken
 
 
-def _rows(path, lines, way, first):
-    """All rows from the first on, and the place of the last one. Comments may stand between them, and texts behind the
-    last one."""
-    rows, last = [], first
-    width = len(row_of(lines[first][1], way))
-    for at in range(first, len(lines)):
-        number, line = lines[at]
-        row = row_of(line, way, 1)
-        if row is not None and len(row) <= width:
-            rows.append(row + [float("nan")] * (width - len(row)))
-            last = at
-        elif not line.lstrip().startswith("#"):
-            cells = cells_of(line, way[0])
-            wrong = [cell for cell in cells if number_of(cell, way[1]) is None]
-            if len(wrong) < len(cells) == width or any(row_of(text, way) for _, text in lines[at + 1:]):
-                raise Trouble(f"{path}: row {len(rows) + 1} of the numbers (line {number}) " + (
-                    f"has {quoted(wrong[0])}, which is no number" if wrong else
-                    f"has {len(cells)} columns, {width} are expected"))
-            break
-    return rows, last
+def _runs(lines, form):
+    """Begin and end of the runs of rows among the lines. Comments may stand in them, and short rows."""
+    runs, begin, last = [], None, 0
+    for k, (_, line) in enumerate(lines):
+        row = row_of(line, form, 2 if begin is None else 1)
+        if row is not None and (len(row) == form.width or begin is not None and len(row) < form.width):
+            begin, last = k if begin is None else begin, k
+        elif not line.lstrip().startswith("#") and begin is not None:
+            runs.append((begin, last + 1))
+            begin = None
+    return runs + ([(begin, last + 1)] if begin is not None else [])
 
 
-def read_table(path):
-    """The table of a file; Trouble says why there is none."""
+def _require_rows(path, lines, form, run, after):
+    """Refuses lines between two runs if each of them looks like a row in which something is wrong."""
+    wrong = []
+    for number, line in lines[run[1]:after]:
+        if line.lstrip().startswith("#"):
+            continue
+        cells = cells_of(line, form.separator)
+        texts = [cell for k, cell in enumerate(cells) if number_of(cell, form.decimal) is None and k not in form.texts]
+        if texts and not len(texts) < len(cells) == form.width or _is_units(cells):
+            return
+        wrong.append((number, texts, len(cells)))
+    if wrong:
+        number, texts, many = wrong[0]
+        raise Trouble(f"{path}: row {run[1] - run[0] + 1} of the numbers (line {number}) " + (
+            f"has {quoted(texts[0])}, which is no number: correct it, or leave the cell empty" if texts else
+            f"has {many} columns, {form.width} are expected: correct the row, or remove it"))
+
+
+def read_tables(path):
+    """The tables of a file, one for each run of rows; Trouble says why there is none."""
     text, encoding = decoded(path)
     every = [(k + 1, line) for k, line in enumerate(text.replace("\r\n", "\n").replace("\r", "\n").split("\n"))]
     lines = [(number, line) for number, line in every if line.strip()]
     if not lines:
         raise Trouble(f"{path}: the file is empty: rows with at least 2 numbers are expected")
-    way = _way([line for _, line in lines[:TRIED]])
-    if way is None:
-        raise Trouble(f"{path}: there are no numbers: rows with at least 2 of them are expected")
-    found = [row_of(line, way) for _, line in lines[:TRIED]]
-    width = collections.Counter(len(row) for row in found if row is not None).most_common(1)[0][0]
-    first = next(k for k, row in enumerate(found) if row is not None and len(row) == width)
-    rows, last = _rows(path, lines, way, first)
-    titles, units, used = _header([line for _, line in lines[:first]], way[0], width)
-    said = [] if not encoding else [encoding]
-    if first - used > 0:
-        said.append(f"{first - used} line{'s' if first - used > 1 else ''} before the table")
-    said.append(f"{NAMES[way[0]]} between {'numbers with decimal commas' if way[1] == ',' else 'numbers'}")
-    said.append(f"{len(rows)} rows from line {lines[first][0]} on")
-    if last + 1 < len(lines):
-        behind = len(lines) - last - 1
-        said.append(f"{behind} line{'s' if behind > 1 else ''} of text behind them")
-    return Table(path, titles, units, list(np.array(rows).T), said)
+    form = form_of([line for _, line in lines[:TRIED]])
+    if form is None:
+        raise Trouble(f"{path}: there are no numbers: rows with at least 2 of them are expected, displacement and load")
+    runs = _runs(lines, form)
+    for run, following in zip(runs, runs[1:]):
+        _require_rows(path, lines, form, run, following[0])
+    end = runs[-1][1]
+    if end < len(lines) and number_of(cells_of(lines[end][1], form.separator)[0], form.decimal) is not None:
+        _require_rows(path, lines, form, runs[-1], end + 1)  # a last row with a fault: results begin with a word
+    longest = max(end - begin for begin, end in runs)
+    least = max(LEAST_ROWS, LEAST_PART * longest) if longest >= LEAST_ROWS else longest
+    runs = [(begin, end) for begin, end in runs if end - begin >= least]
+    tables, before = [], 0
+    for begin, end in runs:
+        titles, units, used = _header([line for _, line in lines[before:begin]], form)
+        if tables and not any(titles + units):
+            titles, units = tables[-1].titles, tables[-1].units
+        chosen = [(number, line) for number, line in lines[begin:end] if not line.lstrip().startswith("#")]
+        rows = [(row_of(line, form, 0) + [float("nan")] * form.width)[:form.width] for _, line in chosen]
+        cells = [cells_of(line, form.separator) + [""] * form.width for _, line in chosen] if form.texts else []
+        above = [line for _, line in lines[before:begin - used]]
+        table = Table(path, titles, units, list(np.array(rows).T), {k: [row[k] for row in cells] for k in form.texts},
+                      np.array([number for number, _ in chosen]), cells_of(above[-1], form.separator) if above else [])
+        table.name = _name(table.above)
+        said = [encoding] if encoding else []
+        if above:
+            said.append(f"{len(above)} line{'s' if len(above) > 1 else ''} before the table")
+        said.append(f"{NAMES[form.separator]} between {'numbers with decimal commas' if form.decimal == ',' else 'numbers'}")
+        table.said = said
+        tables.append(table)
+        before = end
+    behind = len(lines) - before
+    tables[-1].said = tables[-1].said + ([f"{behind} line{'s' if behind > 1 else ''} of text behind it"] if behind else [])
+    return tables
+
+
+def _name(cells):
+    """What the line above a table calls it: "DCB-01" of "Specimen;DCB-01"."""
+    words = [cell for cell in cells if cell]
+    return words[-1].rpartition(":")[2].strip() if words and len(words) <= 2 else ""

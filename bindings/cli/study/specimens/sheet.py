@@ -42,9 +42,11 @@ def sheet_of(given):
     mistaken = taken_for_arm(given.test, 1e3 * sheet.get("arm", 0.0), given.sheet)
     if mistaken:
         raise Trouble(mistaken)
-    missing = [f"--{key}" for key in NEEDED[given.test] if key not in sheet]
+    others = {key: other for key, other, _ in SAME}
+    missing = [f"--{key}" + (f" (or --{others[key]})" if key in others else "") + f", such as {SHEET[key][1]}"
+               for key in NEEDED[given.test] if key not in sheet]
     if missing:
-        raise Trouble(f"{given.test} needs {', '.join(missing)}")
+        raise Trouble(f"{given.test} needs {'; '.join(missing)}")
     if "span" in sheet and not sheet["notch"] < 0.5 * sheet["span"]:
         raise Trouble(f"--notch {given.sheet['notch']}: less than the half span of {500 * sheet['span']:g} mm is expected")
     if "block-pin" in sheet and given.test != "dcb":

@@ -48,13 +48,13 @@ std::string loads_text(const Jump& jump, const Scene& scene) {
 
 constexpr double worth_telling = 0.02;  // relative change of a reaction
 
-// ", reaction 27.6 to 16.5".
+// ", reaction 27.6 to 16.5 N/mm".
 std::string reactions_text(const Jump& jump, const Scene& scene) {
     std::string out;
     for (std::size_t p = 0; p < jump.loads.size(); ++p) {
         const double before = jump.reaction_before[p], after = jump.reaction_after[p];
         if (std::abs(after - before) > worth_telling * std::abs(before))
-            out += fmt::format(", {} {} to {}", reaction_title(scene, p), short_number(before), short_number(after));
+            out += fmt::format(", {} {}", reaction_title(scene, p), reaction_text(before, after, scene, p));
     }
     return out;
 }

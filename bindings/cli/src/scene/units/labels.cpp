@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/units/labels.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -18,6 +20,19 @@ std::string extent_text(double extent, const Scene& scene) {
 
 std::string length_text(double length, const Scene& scene) {
     return with_unit(length, Quantity::length, scene.units.names);
+}
+
+std::string reaction_text(double before, double after, const Scene& scene, std::size_t pattern) {
+    const bool strain = std::any_of(scene.eigenstrains.begin(), scene.eigenstrains.end(),
+                                    [&](const EigenstrainData& one) { return one.pattern == pattern; });
+    const Quantity quantity = force_patterns(scene)[pattern]  ? Quantity::length
+                              : scene.geometry.dimension == 2 ? Quantity::line_force
+                                                              : Quantity::force;
+    const std::vector<Scale> scales =
+        strain || scene.cell ? std::vector<Scale>{{1, ""}} : scales_of(quantity, scene.units.names);
+    const Scale& scale = suiting(scales, std::max(std::abs(before), std::abs(after)));
+    return fmt::format("{} to {}{}{}", short_number(before * scale.factor), short_number(after * scale.factor),
+                       scale.name.empty() ? "" : " ", scale.name);
 }
 
 std::string short_number(double number) {

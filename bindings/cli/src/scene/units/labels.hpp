@@ -2,6 +2,7 @@
 // Numbers with the names of units of the scene, in lines for people. In 2D, energies are per unit thickness.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "scene/scene.hpp"
@@ -14,6 +15,9 @@ std::string energy_text(double energy, const Scene& scene, double largest);
 // A part of an interface: "11.3 mm", in 3D "11.3 mm²".
 std::string extent_text(double extent, const Scene& scene);
 std::string length_text(double length, const Scene& scene);
+// Returns a reaction before and after a change, "27.6 to 16.5 N/mm", in 3D "27.6 to 16.5 N". That of dead forces is a
+// displacement, and that of strains has no unit.
+std::string reaction_text(double before, double after, const Scene& scene, std::size_t pattern);
 // Four digits without an exponent: "3.142", "10045".
 std::string short_number(double number);
 // "0.04 %" for 4e-4.

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How the numbers of a file are written: what stands between them, their decimal sign, groups of thousands, and what
+machines write where they have no number.
+
+Machines write a preamble of names and settings, titles, a row of units, numbers with a point or a comma, and between
+them semicolons, tabs, commas or blanks. Which of these a file has is not guessed from its first lines: every way is
+tried, and the one counts that makes rows of numbers of the most lines.
+"""
+import collections
+import csv
+import re
+from dataclasses import dataclass
+
+# Separator, decimal sign; of two that make as many rows, the first.
+WAYS = (("\t", "."), ("\t", ","), (";", "."), (";", ","), (",", "."), (",", ","), (" ", "."), (" ", ","))
+NAMES = {"\t": "tabs", ";": "semicolons", ",": "commas", " ": "blanks"}
+
+# Between thousands: apostrophes, and blanks that do not break a line; the other one of point and comma.
+GROUPS = "['’ \u00a0\u2009\u202f]"
+
+
+def _number(decimal, other):
+    """A number with this decimal sign; thousands may be grouped, which begins with no zero: 0,123 is none of them."""
+    grouped = "|".join(rf"[1-9]\d{{0,2}}(?:{sign}\d{{3}})+(?:{decimal}\d*)?" for sign in (GROUPS, other))
+    return re.compile(rf"[+-]?(?:{grouped}|\d+{decimal}?\d*|{decimal}\d+)(?:[eEdD][+-]?\d+)?|[+-]?(?:nan|inf)", re.I)
+
+
+NUMBER = {".": _number(r"\.", ","), ",": _number(",", r"\.")}
+# A date, a time of the day, or both.
+STAMP = re.compile(r"\d{1,4}(?:[:/.-]\d{1,4}){2,}(?:[T ]+\d{1,2}(?::\d{1,2}){1,2})?(?:[.,]\d+)?(?:\s*[APap][Mm])?")
+# What stands for no number: of machines, of Excel in English and German, and strokes or stars.
+MISSING = re.compile(r"[-–—]+|\*+|\?+|#?n/?a|null|#(?:nv|num!|zahl!|value!|wert!|div/0!|ref!|bezug!)|overload|overflow", re.I)
+
+
+@dataclass(frozen=True)
+class Form:
+    """separator, decimal sign, number of columns; texts: the columns that have words beside the numbers."""
+    separator: str
+    decimal: str
+    width: int
+    texts: frozenset = frozenset()
+
+
+def cells_of(line, separator):
+    """The cells of one line, without quotes and blanks around them."""
+    if separator == " ":
+        return line.split()
+    if '"' in line:
+        try:
+            return [cell.strip() for cell in next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])]
+        except csv.Error:
+            return [line]
+    return [cell.strip() for cell in line.split(separator)]
+
+
+def number_of(cell, decimal):
+    """A number as it is written; NaN for nothing, for dates and for what stands for no number; None: it is a text."""
+    cell = cell.replace("\u2212", "-")
+    if NUMBER[decimal].fullmatch(cell):
+        cell = re.sub(GROUPS, "", cell).replace(",." [decimal == ","], "").replace(",", ".")
+        return float(cell.replace("d", "e").replace("D", "e"))
+    return float("nan") if not cell or STAMP.fullmatch(cell) or MISSING.fullmatch(cell) else None
+
+
+def row_of(line, form, least=2):
+    """The numbers of a line, NaN in columns of words; None where it is no row: a text elsewhere, or fewer numbers than
+    the least."""
+    row = [number_of(cell, form.decimal) for cell in cells_of(line, form.separator)]
+    row = [float("nan") if value is None and k in form.texts else value for k, value in enumerate(row)]
+    if any(value is None for value in row) or sum(value == value for value in row) < least:
+        return None
+    return row
+
+
+def _grouped_alone(rows):
+    """True if commas group thousands in these cells and none has a point: then they are rather decimal commas."""
+    return any("," in cell for cell in rows) and not any("." in cell for cell in rows)
+
+
+def form_of(lines):
+    """The form with which most lines are rows; None: no line is. Columns of words count if they make more than twice as
+    many rows: a results table before the curve may have none."""
+    strict, loose = (0, None), (0, None)
+    for separator, decimal in WAYS:
+        if separator != " " and not any(separator in line for line in lines):
+            continue
+        counts, written = collections.Counter(), []
+        for line in lines:
+            cells = cells_of(line, separator)
+            row = [number_of(cell, decimal) for cell in cells]
+            if sum(value is not None and value == value for value in row) >= 2:
+                counts[(len(row), frozenset(k for k, value in enumerate(row) if value is None))] += 1
+                written += [cell for cell, value in zip(cells, row) if value is not None and value == value]
+        if not counts or decimal == "." and _grouped_alone(written):
+            continue
+        for (width, texts), rows in counts.items():
+            if not texts and rows > strict[0]:
+                strict = rows, Form(separator, decimal, width)
+        (width, texts), _ = counts.most_common(1)[0]
+        rows = sum(count for (many, some), count in counts.items() if many == width and some <= texts)
+        if texts and (rows > loose[0] or rows == loose[0] and len(texts) < len(loose[1].texts)):
+            loose = rows, Form(separator, decimal, width, texts)
+    return loose[1] if loose[0] > 2 * strict[0] else strict[1]

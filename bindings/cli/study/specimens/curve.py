@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The curve of a test from the file of a machine, in SI, with the marks of its crack."""
+import numpy as np
+
+from command import Trouble, say
+from measured.columns import choose, label
+from measured.curve_data import left_out, upright
+from measured.loops import Way
+from measured.one_test import read_test
+from specimens.marks import Sheet, crack_column, growing, size_of
+
+LEAST_POINTS = 5
+
+
+class Curve:
+    """Displacement and load in SI along the way of the test without its unloadings, and the marks of the crack."""
+
+    def __init__(self, path, given, apart):
+        """apart: a file of crack lengths, or ""."""
+        table = read_test(path, given.specimen[0] if given.specimen else "")
+        x, y = choose(table, given.columns)
+        said = [f"displacement is {label(table, x)}, load is {label(table, y)}", *table.said]
+        self.names = [option or table.units[k] for k, option in zip((x, y), given.units or ["", ""])]
+        units = [size_of(table, k, name, kind) for k, name, kind in zip((x, y), self.names, ("length", "force"))]
+        columns = [table.columns[k] * size for k, size in zip((x, y), units)]
+        there = np.isfinite(columns[0]) & np.isfinite(columns[1])
+        if there.sum() < LEAST_POINTS:
+            raise Trouble(f"{path}: {int(there.sum())} points with displacement and load: at least {LEAST_POINTS} are expected")
+        if not there.all():
+            said.append(left_out(int((~there).sum())))
+        turned = []
+        for column, one in zip(columns, upright([column[there] for column in columns], (1.0, 1.0), turned)):
+            column[there] = one
+        said += [text.replace("x ", "displacement ", 1).replace("y ", "load ", 1) for text in turned]
+        columns[0] = columns[0] - given.machine * columns[1]
+        way = Way(columns[0][there], columns[1][there], False)
+        if given.machine:
+            said.append(f"machine and fixture take {1e3 * given.machine * np.max(way.y):.4g} mm of the displacement at the largest load")
+        if way.loops:
+            said.append(f"{len(way.loops)} unloading{'s' * (len(way.loops) > 1)} cut")
+        if way.averaged:
+            said.append(f"x jitters: {int(there.sum())} points are averaged to {len(way.x)}"
+                        if not way.loops else f"x jitters: {way.averaged} points are merged with their neighbours")
+        self.path, self.displacement, self.load = path, way.x, way.y
+        # The whole way of the machine, where its unloadings are cut: for the picture.
+        self.whole = (columns[0][there], columns[1][there]) if way.loops else None
+        self.read_as = " and ".join(f"{label(table, k).removesuffix(' in ' + table.units[k])} in {name}"
+                                    for k, name in zip((x, y), self.names))
+        self.marks = Sheet(apart, given).marks(table, columns, said) if apart else self._marks(table, given, columns, there, said)
+        say(f"{path}: {'; '.join(said)}")
+
+    @staticmethod
+    def _marks(table, given, columns, there, said):
+        """Displacement, load and crack length of the rows that have one; one for each length."""
+        k, crack = crack_column(table, given)
+        if k is None:
+            return np.zeros((0, 3))
+        rows = there & np.isfinite(crack) & (crack > 0) & (columns[1] > 0)
+        marks = growing(columns[0][rows], columns[1][rows], crack[rows])
+        said.append(f"crack is {label(table, k)} at {len(marks)} points")
+        return marks
