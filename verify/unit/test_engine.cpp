@@ -12,6 +12,7 @@
 #include "base/numbers.hpp"
 #include "check.hpp"
 #include "evolution/analysis/solver.hpp"
+#include "evolution/observe/fields.hpp"
 #include "layer_states.hpp"
 #include "mesh/pairing/interfaces.hpp"
 #include "reduction/condensed/condensed.hpp"
@@ -234,8 +235,8 @@ LOOP_TEST(bodies_that_only_the_engine_knows, 0, 3) {
             solver->commit();
         }
         expect_close(b.states().committed().adhesion, a.states().committed().adhesion, 1e-4, 1.0, where + ", adhesion");
-        const std::vector<double> rho = a.observer().reaction();
-        expect_close(b.observer().reaction(), rho, 1e-6, max_abs(rho), where + ", reactions");
+        const std::vector<double> rho = field(a.observer(), "reaction", -1);
+        expect_close(field(b.observer(), "reaction", -1), rho, 1e-6, max_abs(rho), where + ", reactions");
     }
 }
 
