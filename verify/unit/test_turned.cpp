@@ -192,7 +192,13 @@ LOOP_TEST(stresses_work_on_rotations, 0, std::size(all_types)) {
     std::vector<double> gradients(one.nodes.size());
     const double volume = integrate_gradients(type, one.nodes, gradients);
     const std::vector<double> force = InitialStress(mesh, stress).softening(u);
-    double work = 0.0, sum = 0.0;
+    double work = 0.0, sum = 0.0, on_rotations = 0.0;
+    for (std::size_t i = 0; i < dim; ++i)
+        for (std::size_t j = 0; j < dim; ++j)
+            for (std::size_t k = 0; k < dim; ++k)
+                on_rotations += 0.125 * volume * (slope[k * dim + i] - slope[i * dim + k]) * stress[place[i][j]] *
+                                (slope[k * dim + j] - slope[j * dim + k]);
+    ck_assert_double_eq_tol(InitialStress(mesh, stress).work_on_rotations(u), on_rotations, 1e-12 * volume);
     for (std::size_t i = 0; i < force.size(); ++i) {
         work -= force[i] * u[i];
         sum += force[i];

@@ -12,15 +12,13 @@
 
 namespace delam {
 
-namespace {
-
-// Returns a stress, [dimension][dimension], from its components xx, yy, zz, xy(, yz, zx).
-std::array<double, 9> tensor(const double* s, std::size_t dimension) {
-    if (dimension == 2) return {s[0], s[3], s[3], s[1]};
+// The components are xx, yy, zz, xy(, yz, zx).
+std::array<double, 9> InitialStress::stress(std::int64_t cell) const {
+    const bool plane = mesh_.dimension() == 2;
+    const double* s = &stress_[index(cell) * (plane ? 4 : 6)];
+    if (plane) return {s[0], s[3], s[3], s[1]};
     return {s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]};
 }
-
-}  // namespace
 
 InitialStress::Cell InitialStress::integrated(CellType type, std::span<const double> coordinates) {
     Cell cell{std::vector<double>(coordinates.size()), 0.0};
@@ -42,9 +40,9 @@ InitialStress::InitialStress(const Mesh& mesh, std::vector<double> stress) : mes
     }
 }
 
-std::vector<double> InitialStress::softening(std::span<const double> displacement) const {
-    const std::size_t dim = index(mesh_.dimension()), columns = dim == 2 ? 4 : 6;
-    std::vector<double> force(displacement.size(), 0.0);
+template <class Use>
+void InitialStress::each(std::span<const double> displacement, const Use& use) const {
+    const std::size_t dim = index(mesh_.dimension());
     CellShape shape;
     Cell own;
     for (std::size_t c = 0; c < which_.size(); ++c) {
@@ -55,26 +53,49 @@ std::vector<double> InitialStress::softening(std::span<const double> displacemen
             own = integrated(mesh_.cell_type(number), shape.coordinates());
         }
         const Cell& cell = which_[c] < 0 ? own : cells_.at(which_[c]);
-        const std::array<double, 9> s = tensor(&stress_[c * columns], dim);
-        std::array<double, 9> slope{}, flux{};  // H, V H s
+        std::array<double, 9> slope{};
         const double* g = cell.gradient.data();
         for (const std::int64_t n : mesh_.cell(number)) {
             for (std::size_t i = 0; i < dim; ++i)
                 for (std::size_t j = 0; j < dim; ++j) slope[i * dim + j] += displacement[index(n) * dim + i] * g[j];
             g += dim;
         }
+        use(number, cell, slope);
+    }
+}
+
+std::vector<double> InitialStress::softening(std::span<const double> displacement) const {
+    const std::size_t dim = index(mesh_.dimension());
+    std::vector<double> force(displacement.size(), 0.0);
+    each(displacement, [&](std::int64_t number, const Cell& cell, const std::array<double, 9>& slope) {
+        const std::array<double, 9> s = stress(number);
+        std::array<double, 9> flux{};  // V H s
         for (std::size_t i = 0; i < dim; ++i)
             for (std::size_t j = 0; j < dim; ++j)
                 for (std::size_t k = 0; k < dim; ++k)
                     flux[i * dim + j] += cell.volume * slope[i * dim + k] * s[k * dim + j];
-        g = cell.gradient.data();
+        const double* g = cell.gradient.data();
         for (const std::int64_t n : mesh_.cell(number)) {
             for (std::size_t i = 0; i < dim; ++i)
                 for (std::size_t j = 0; j < dim; ++j) force[index(n) * dim + i] -= flux[i * dim + j] * g[j];
             g += dim;
         }
-    }
+    });
     return force;
+}
+
+double InitialStress::work_on_rotations(std::span<const double> displacement) const {
+    const std::size_t dim = index(mesh_.dimension());
+    double work = 0.0;
+    each(displacement, [&](std::int64_t number, const Cell& cell, const std::array<double, 9>& slope) {
+        const std::array<double, 9> s = stress(number);
+        const auto skew = [&](std::size_t i, std::size_t j) { return 0.5 * (slope[i * dim + j] - slope[j * dim + i]); };
+        for (std::size_t i = 0; i < dim; ++i)
+            for (std::size_t j = 0; j < dim; ++j)
+                for (std::size_t k = 0; k < dim; ++k)
+                    work += 0.5 * cell.volume * s[i * dim + j] * skew(k, i) * skew(k, j);
+    });
+    return work;
 }
 
 }  // namespace delam

@@ -4,6 +4,7 @@
 // Finite Element Method 2, 2000, section 10.4). Stresses and gradients are those of the middle of each cell.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,6 +22,8 @@ public:
     // Returns the forces by which the stresses press on along displacements [mesh DOFs], -int s : H^T dH dV. Their
     // product with the displacements is minus twice the work.
     std::vector<double> softening(std::span<const double> displacement) const;
+    // Returns the work on the rotations of these displacements alone, 1/2 int s : W^T W dV with the skew part W of H.
+    double work_on_rotations(std::span<const double> displacement) const;
 
 private:
     // The mean gradients of a cell's shape functions, [nodes][dimension], and its volume.
@@ -29,6 +32,11 @@ private:
         double volume = 0.0;
     };
     static Cell integrated(CellType type, std::span<const double> coordinates);
+    // Returns the stress of a cell, [dimension][dimension].
+    std::array<double, 9> stress(std::int64_t cell) const;
+    // Calls use(cell, its gradients and volume, its mean slope H [dimension][dimension]) for one cell after another.
+    template <class Use>
+    void each(std::span<const double> displacement, const Use& use) const;
 
     const Mesh& mesh_;
     std::vector<double> stress_;

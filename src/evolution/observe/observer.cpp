@@ -127,11 +127,10 @@ MeshErrorShares Observer::mesh_error(const State& state) {
 
 double Observer::rotation_error(const State& state) {
     if (op_.turned(state.response) != nullptr) return 0.0;
-    const double rotation = largest_rotation(state), stored = state.ledger.stored_bulk;
-    if (!(stored > 0.0)) return rotation > 0.0 ? unknown : rotation;
-    const std::vector<double> moved = displacement(state);
-    const double work = -0.5 * dot(InitialStress(*problem_.mesh, stress(state)).softening(moved), moved);
-    return std::max(0.5 * rotation * rotation, std::abs(work) / stored);
+    const double rotation = largest_rotation(state), of_strains = 0.5 * rotation * rotation;
+    const double work = InitialStress(*problem_.mesh, stress(state)).work_on_rotations(displacement(state));
+    const double share = std::abs(work) / state.ledger.stored_bulk;
+    return std::isfinite(share) ? std::max(of_strains, share) : of_strains;  // squares of tiny loads are 0
 }
 
 double Observer::buckling_ratio(const State& state) {

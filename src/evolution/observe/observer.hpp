@@ -81,8 +81,8 @@ public:
     // Returns the largest rotation of a cell, rad; NaN without cells. Recovers the displacements.
     double largest_rotation(const State& state);
     // Returns the relative error of strains that are linear in the displacements, about: the larger of half the square
-    // of the largest rotation, and the work of the stresses on the rotations over the energy of the bodies. NaN where
-    // it is not known; 0 where strains know rotations. Recovers the displacements.
+    // of the largest rotation, and the work of the stresses on the rotations over the energy of the bodies. 0 where
+    // strains know rotations; NaN without cells. Recovers the displacements.
     double rotation_error(const State& state);
     // Returns the present stresses over those at which the bodies buckle (critical_ratio).
     double buckling_ratio(const State& state);
