@@ -41,15 +41,13 @@ SmallRotations small_rotations_of(const Model& model, delam_solver* solver, cons
 std::string rotation_line(const SmallRotations& small, double largest) {
     if (!small.assumed) return "";
     largest = std::max(largest, small.rotation);
-    const double of_rotation = 0.5 * largest * largest;
-    if (largest > large_rotation && !(small.error > of_rotation))
-        return fmt::format("warning: cells rotate by up to {:.3g} rad: the error of the strains is about {:.2g}",
-                           largest, of_rotation);
-    if (!(small.error > told_share)) return "";
+    const double of_strains = 0.5 * largest * largest;
+    const double error = small.error > of_strains ? small.error : of_strains;
+    if (!(largest > large_rotation) && !(error > told_share)) return "";
     return fmt::format(
-        "warning: cells rotate by up to {:.3g} rad, and at the end the stresses do {} of the bodies' energy as work on "
-        "these rotations, which small rotations leave out (solver.kinematics = \"corotational\" does not)",
-        largest, percent_text(small.error));
+        "warning: cells rotate by up to {:.3g} rad: small rotations leave out about {} of the energy "
+        "(solver.kinematics = \"corotational\" does not)",
+        largest, percent_text(error));
 }
 
 std::string critical_line(const SmallRotations& small) {
