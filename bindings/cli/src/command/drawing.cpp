@@ -87,9 +87,9 @@ std::string turned(const Layer& layer) {
     if (plies.empty() && layer.axes) plies.push_back(*layer.axes);
     if (plies.empty() || plies.size() > most_angles) return "";
     std::vector<std::string> angles;
-    for (const auto& axes : plies) {
-        if (std::abs(axes[2]) > 1e-9) return "";
-        const double angle = std::atan2(axes[1], axes[0]) * 180 / std::acos(-1.0);
+    for (const auto& frame : plies) {
+        if (std::abs(frame[2]) > 1e-9) return "";
+        const double angle = std::atan2(frame[1], frame[0]) * 180 / std::acos(-1.0);
         angles.push_back(fmt::format("{:g}", std::round(10 * angle) / 10 + 0.0));
     }
     return fmt::format(", {}°", fmt::join(angles, "/"));

@@ -8,7 +8,7 @@
 
 #include "model/call.hpp"
 #include "result/history/concept.hpp"
-#include "text/say.hpp"
+#include "scene/units/labels.hpp"
 
 namespace cli {
 
