@@ -83,7 +83,7 @@ Scene strip(const Setting& s) {
     };
     const auto base = box(0.0, 0.03, 0.0);
     const auto foot = scene.find(0, base.first, base.second);
-    for (int axis = 0; axis < s.dimension; ++axis) scene.hold(foot, unit(axis));
+    for (int k = 0; k < s.dimension; ++k) scene.hold(foot, unit(k));
     const auto tip = box(0.0, 0.0, 2e-3);
     const auto top = scene.find(1, tip.first, tip.second);
     scene.drive(top, unit(-1), scene.pattern("lift", {0.0, 1.0}, {0.0, 2.5e-4}), std::vector<double>(top.size(), 1.0));
