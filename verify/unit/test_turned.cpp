@@ -205,7 +205,7 @@ LOOP_TEST(stresses_work_on_rotations, 0, std::size(all_types)) {
     }
     ck_assert_double_eq_tol(work, volume * density, 1e-12 * volume);
     ck_assert_double_eq_tol(sum, 0.0, 1e-12);
-    // What is not known does no work.
+    // A stress that is not known does no work.
     stress.assign(columns, std::nan(""));
     for (const double f : InitialStress(mesh, stress).softening(u)) ck_assert(f == 0.0);
 }

@@ -28,7 +28,7 @@ def _number(decimal, other):
 NUMBER = {".": _number(r"\.", ","), ",": _number(",", r"\.")}
 # A date, a time of the day, or both.
 STAMP = re.compile(r"\d{1,4}(?:[:/.-]\d{1,4}){2,}(?:[T ]+\d{1,2}(?::\d{1,2}){1,2})?(?:[.,]\d+)?(?:\s*[APap][Mm])?")
-# What stands for no number: of machines, of Excel in English and German, and strokes or stars.
+# These stand for no number: those of machines, of Excel in English and German, and strokes or stars.
 MISSING = re.compile(r"[-–—]+|\*+|\?+|#?n/?a|null|#(?:nv|num!|zahl!|value!|wert!|div/0!|ref!|bezug!)|overload|overflow", re.I)
 
 

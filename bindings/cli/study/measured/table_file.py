@@ -58,7 +58,7 @@ def decoded(path):
         if data.startswith(begin):
             raise Trouble(f"{path}: this is {what}, and no text: {EXPORT}")
     name = "utf-16" if data.startswith((b"\xff\xfe", b"\xfe\xff")) else ""
-    # Without a mark at its beginning: every other byte of numbers is a zero.
+    # The file has no mark at its beginning, but every other byte of its numbers is a zero.
     for begin, order in ((1, "utf-16-le"), (0, "utf-16-be")):
         if not name and len(data) > 3 and data[begin::2].count(0) > 0.9 * (len(data) // 2):
             name = order

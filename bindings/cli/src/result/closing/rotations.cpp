@@ -58,9 +58,8 @@ std::string critical_line(const SmallRotations& small) {
             "they do not, solver.kinematics = \"corotational\" lets them",
             small.buckling);
     return fmt::format(
-        "warning: the stresses at the end are {:.2g} of those at which the bodies buckle, and increase bending by up "
-        "to "
-        "{}, which small rotations leave out (solver.kinematics = \"corotational\" does not)",
+        "warning: the stresses at the end are {:.2g} of those at which the bodies buckle, and increase bending by "
+        "up to {}, which small rotations leave out (solver.kinematics = \"corotational\" does not)",
         small.buckling, percent_text(small.buckling / (1.0 - small.buckling)));
 }
 
