@@ -176,7 +176,14 @@ void jumps() {
     cli::Scene plane = scene_of(2, {"a", "b"});
     const std::string large = cli::jump_lines(all, plane, 100).front();
     expect(large.ends_with(", reaction_a 30.45 to 25 kN/m, reaction_b 1 to 0.5 N/m"), "units per width: " + large);
+    plane.prescriptions.push_back({{}, {}, {{0, -1.0}}, false, {}});
+    plane.prescriptions.push_back({{}, {}, {{1, 2.0}}, false, {}});
+    all.front().loads = {0.0016, 0.5};
+    expect(cli::jump_lines(all, plane, 100).front().find("(load_a 1.6 mm, load_b 0.5): ") != std::string::npos,
+           "a factor that is the displacement has its unit");
     plane.units = {};
+    expect(cli::jump_lines(all, plane, 100).front().find("(load_a 0.0016, load_b 0.5): ") != std::string::npos,
+           "a scene without units has none for its loads");
     expect(cli::jump_lines(all, plane, 100).front().ends_with(", reaction_a 30450 to 25000, reaction_b 1 to 0.5"),
            "no unit where the scene names none");
     all.front().reaction_before = {3.0, 1.0};

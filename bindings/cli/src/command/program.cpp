@@ -362,7 +362,14 @@ void add_help(CLI::App& app, Arguments& into, Commands& of) {
     of.man = app.add_subcommand("man", "print a manual page, for man -l");
     of.man->add_option("page", into.page, "delam (the default) or delam-scene")
         ->type_name("PAGE")
-        ->check(CLI::IsMember(of.choices["page"] = {"delam", "delam-scene"}));
+        ->check(CLI::Validator(
+            [pages = of.choices["page"] = {"delam", "delam-scene"}](const std::string& page) {
+                return std::find(pages.begin(), pages.end(), page) != pages.end()
+                           ? std::string()
+                           : fmt::format("\"{}\" is no page; the pages are {}; `delam help COMMAND` tells of a command",
+                                         shortened(page), listing(pages));
+            },
+            "", "page"));
     of.completion = app.add_subcommand("completion", "print the script that completes command lines in a shell");
     of.completion->add_option("shell", into.shell, "bash, zsh or fish")
         ->type_name("SHELL")

@@ -17,16 +17,24 @@ namespace cli {
 
 namespace {
 
-// Appends "ends at 30, the interface at 0.12" and the like.
-void beyond(const Region& region, const Geometry& geometry, std::vector<std::string>& out) {
+// Returns the unit of coordinates after a blank; nothing if the scene names none.
+std::string after_length(const Scene& scene) {
+    const std::string& name = scene.units.names.length;
+    return name.empty() ? "" : " " + name;
+}
+
+// Appends "ends at 30, the interface at 0.12 m" and the like.
+void beyond(const Region& region, const Scene& scene, std::vector<std::string>& out) {
+    const Geometry& geometry = scene.geometry;
+    const std::string unit = after_length(scene);
     const double slack = 1e-6 * geometry.smallest_edge;
     for (std::size_t axis = 0; axis < geometry.lengths.size(); ++axis) {
         const std::string along = geometry.lengths.size() > 1 ? (axis == 0 ? " along x" : " along y") : "";
         if (region.lower[axis] < -slack)
-            out.push_back(fmt::format("begins at {}, the interface at 0{}", region.lower[axis], along));
+            out.push_back(fmt::format("begins at {}{}, the interface at 0{}", region.lower[axis], unit, along));
         if (region.upper[axis] > geometry.lengths[axis] + slack)
-            out.push_back(
-                fmt::format("ends at {}, the interface at {}{}", region.upper[axis], geometry.lengths[axis], along));
+            out.push_back(fmt::format("ends at {}, the interface at {}{}{}", region.upper[axis], geometry.lengths[axis],
+                                      unit, along));
     }
 }
 
@@ -37,7 +45,7 @@ void interface_warnings(const Model& model, const Scene& scene, std::vector<std:
         for (const Region& region : data.regions) {
             if (scene.mesh) break;
             std::vector<std::string> texts;
-            beyond(region, scene.geometry, texts);
+            beyond(region, scene, texts);
             for (const std::string& text : texts) {
                 out.push_back(region.place.path + " " + text + (model.adheres[i] ? "" : ": nothing adheres"));
                 said = true;
@@ -66,10 +74,10 @@ void patch_warnings(const Scene& scene, const Selection& where, std::vector<std:
         }
         const char* letter = axis + 1 < patch->lower.size() ? (axis == 0 ? "x" : "y") : (axis == 1 ? "y" : "z");
         if (patch->lower[axis] < lower - slack || patch->upper[axis] > upper + slack)
-            out.push_back(
-                fmt::format("{}.patch reaches from {} = {:.6g} to {:.6g}, the body from {:.6g} to {:.6g}: "
-                            "only what is on the body counts",
-                            where.place.path, letter, patch->lower[axis], patch->upper[axis], lower, upper));
+            out.push_back(fmt::format(
+                "{}.patch reaches from {} = {:.6g} to {:.6g}, the body from {:.6g} to {:.6g}{}: "
+                "only what is on the body counts",
+                where.place.path, letter, patch->lower[axis], patch->upper[axis], lower, upper, after_length(scene)));
     }
 }
 
@@ -141,9 +149,9 @@ void note_place(Model& model, const Scene& scene, const Selection& where, const 
         double square = 0;
         for (std::size_t a = 0; a < point->at.size(); ++a) square += std::pow(taken.at[a] - point->at[a], 2);
         if (std::sqrt(square) > 1e-3 * scene.geometry.smallest_edge)
-            model.said.push_back(fmt::format("{}.point is [{:.6g}], its node is at [{:.6g}], {:.3g} away",
+            model.said.push_back(fmt::format("{}.point is [{:.6g}], its node is at [{:.6g}], {:.3g}{} away",
                                              where.place.path, fmt::join(point->at, ", "), fmt::join(taken.at, ", "),
-                                             std::sqrt(square)));
+                                             std::sqrt(square), after_length(scene)));
     }
     const auto* patch = std::get_if<Patch>(&where.shape);
     if (patch == nullptr || !scene.mesh) return;  // patch_warnings knows the extent of layers
@@ -151,9 +159,11 @@ void note_place(Model& model, const Scene& scene, const Selection& where, const 
     for (std::size_t axis = 0; axis < patch->lower.size(); ++axis)
         if (std::abs(patch->normal[axis]) < 0.5) asked *= patch->upper[axis] - patch->lower[axis];
     const double covered = std::accumulate(taken.weights.begin(), taken.weights.end(), 0.0);
+    const std::string unit = after_length(scene);
     if (covered < (1 - 1e-6) * asked)
-        model.said.push_back(fmt::format("{}.patch covers {:.6g} of {:.6g}: only what is on the boundary counts",
-                                         where.place.path, covered, asked));
+        model.said.push_back(fmt::format("{}.patch covers {:.6g} of {:.6g}{}{}: only what is on the boundary counts",
+                                         where.place.path, covered, asked, unit,
+                                         scene.geometry.dimension == 3 && !unit.empty() ? "²" : ""));
 }
 
 }  // namespace cli

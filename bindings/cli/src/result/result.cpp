@@ -129,6 +129,18 @@ Json search_json(const SearchLimits& limits) {
             {"largest_margin", margin}};
 }
 
+const char* name_of(Drives drives) {
+    switch (drives) {
+        case Drives::force:
+            return "force";
+        case Drives::strain:
+            return "strain";
+        case Drives::displacement:
+            break;
+    }
+    return "displacement";
+}
+
 // The names of the scene, and the units in which pictures may show its numbers (text/unit.hpp).
 Json units_json(const Units& units) {
     Json scales = Json::object();
@@ -185,15 +197,9 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
     call(model.context.get(), delam_problem_dofs(model.problem.get(), &primal, &dual),
          std::string("numbers of unknowns"));
     Json patterns = Json::array();
-    const std::vector<bool> force = force_patterns(scene);
-    for (std::size_t i = 0; i < scene.patterns.size(); ++i) {
-        const bool strain = std::any_of(scene.eigenstrains.begin(), scene.eigenstrains.end(),
-                                        [i](const EigenstrainData& e) { return e.pattern == i; });
-        patterns.push_back({{"name", scene.patterns[i].name},
-                            {"drives", strain     ? "strain"
-                                       : force[i] ? "force"
-                                                  : "displacement"}});
-    }
+    const std::vector<Drives> drives = drives_of(scene);
+    for (std::size_t i = 0; i < scene.patterns.size(); ++i)
+        patterns.push_back({{"name", scene.patterns[i].name}, {"drives", name_of(drives[i])}});
     Json files = Json::object();
     for (const auto& [name, content] : outcome.files) files[name] = {{"bytes", content.bytes}, {"hash", content.hash}};
     Json layers = Json::array();

@@ -6,12 +6,14 @@
 
 namespace cli {
 
-std::vector<bool> force_patterns(const Scene& scene) {
-    std::vector<bool> out(scene.patterns.size(), false);
-    for (const DeadForce& data : scene.forces) out[data.pattern] = true;
+std::vector<Drives> drives_of(const Scene& scene) {
+    std::vector<Drives> out(scene.patterns.size(), Drives::displacement);
+    for (const DeadForce& data : scene.forces) out[data.pattern] = Drives::force;
     if (scene.cell)
         for (const CellComponent& component : scene.cell->components)
-            for (const Term& term : component.terms) out[term.pattern] = out[term.pattern] || component.stress;
+            for (const Term& term : component.terms)
+                if (component.stress) out[term.pattern] = Drives::force;
+    for (const EigenstrainData& data : scene.eigenstrains) out[data.pattern] = Drives::strain;
     return out;
 }
 

@@ -296,7 +296,9 @@ struct Scene {
     [[nodiscard]] std::size_t step_count() const { return times.size() - 1; }
 };
 
-// Returns, for each pattern, whether it drives forces, from [[forces]] or as a stress of the cell.
-std::vector<bool> force_patterns(const Scene& scene);
+// The factor of a pattern multiplies prescribed displacements or average strains of a cell, forces or average stresses
+// of a cell, or strains within the bodies.
+enum class Drives { displacement, force, strain };
+std::vector<Drives> drives_of(const Scene& scene);  // for each pattern
 
 }  // namespace cli

@@ -83,8 +83,8 @@ History::History(const Model& model, const Scene& scene, const delam_solver* sol
     if (cracks)
         for (const char* key : of_cracks)
             if (knows(key)) add(key, key);
-    if (const auto forces = force_patterns(scene); std::find(forces.begin(), forces.end(), true) != forces.end())
-        add("load_potential", "load_potential");
+    const std::vector<Drives> drives = drives_of(scene);
+    if (std::find(drives.begin(), drives.end(), Drives::force) != drives.end()) add("load_potential", "load_potential");
     for (const std::string& key : scene.output.columns) {
         const std::optional<AverageColumn> average = average_column(key, scene);
         if (average) averages_[key] = *average;

@@ -38,11 +38,11 @@ std::string csv_cell(const std::string& text) {
     return out + "\"";
 }
 
-// " (load 0.0016)"; with several patterns " (load_press 0.0016, load_side 2)".
+// " (load 1.6 mm)"; with several patterns " (load_press 1.6 mm, load_side 2)".
 std::string loads_text(const Jump& jump, const Scene& scene) {
     std::string out;
     for (std::size_t p = 0; p < jump.loads.size(); ++p)
-        out += fmt::format("{}{} {:.6g}", p == 0 ? " (" : ", ", load_title(scene, p), jump.loads[p]);
+        out += fmt::format("{}{} {}", p == 0 ? " (" : ", ", load_title(scene, p), load_text(jump.loads[p], scene, p));
     return out.empty() ? out : out + ")";
 }
 

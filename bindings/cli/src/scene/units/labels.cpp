@@ -22,17 +22,41 @@ std::string length_text(double length, const Scene& scene) {
     return with_unit(length, Quantity::length, scene.units.names);
 }
 
+namespace {
+
+// True if the factor of a pattern is the displacement itself, in one place at least.
+bool is_displacement(const Scene& scene, std::size_t pattern) {
+    const auto itself = [&](const Term& term) { return term.pattern == pattern && std::abs(term.coefficient) == 1; };
+    const auto one_is = [&](const std::vector<Term>& terms) { return std::any_of(terms.begin(), terms.end(), itself); };
+    return std::any_of(scene.prescriptions.begin(), scene.prescriptions.end(),
+                       [&](const Prescription& one) { return one_is(one.terms); }) ||
+           std::any_of(scene.equations.begin(), scene.equations.end(),
+                       [&](const EquationData& one) { return one_is(one.right); });
+}
+
+std::string name_after(const Scale& scale) { return scale.name.empty() ? "" : " " + scale.name; }
+
+}  // namespace
+
+std::string load_text(double load, const Scene& scene, std::size_t pattern) {
+    const bool length =
+        !scene.cell && drives_of(scene)[pattern] == Drives::displacement && is_displacement(scene, pattern);
+    const std::vector<Scale> scales =
+        length ? scales_of(Quantity::length, scene.units.names) : std::vector<Scale>{{1, ""}};
+    const Scale& scale = suiting(scales, std::abs(load));
+    return fmt::format("{:.6g}{}", load * scale.factor, name_after(scale));
+}
+
 std::string reaction_text(double before, double after, const Scene& scene, std::size_t pattern) {
-    const bool strain = std::any_of(scene.eigenstrains.begin(), scene.eigenstrains.end(),
-                                    [&](const EigenstrainData& one) { return one.pattern == pattern; });
-    const Quantity quantity = force_patterns(scene)[pattern]  ? Quantity::length
+    const Drives drives = drives_of(scene)[pattern];
+    const Quantity quantity = drives == Drives::force         ? Quantity::length
                               : scene.geometry.dimension == 2 ? Quantity::line_force
                                                               : Quantity::force;
     const std::vector<Scale> scales =
-        strain || scene.cell ? std::vector<Scale>{{1, ""}} : scales_of(quantity, scene.units.names);
+        drives == Drives::strain || scene.cell ? std::vector<Scale>{{1, ""}} : scales_of(quantity, scene.units.names);
     const Scale& scale = suiting(scales, std::max(std::abs(before), std::abs(after)));
-    return fmt::format("{} to {}{}{}", short_number(before * scale.factor), short_number(after * scale.factor),
-                       scale.name.empty() ? "" : " ", scale.name);
+    return fmt::format("{} to {}{}", short_number(before * scale.factor), short_number(after * scale.factor),
+                       name_after(scale));
 }
 
 std::string short_number(double number) {
