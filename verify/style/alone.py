@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""alone.py BUILD: whether each C++ file of src/ and bindings/ compiles by itself.
+"""alone.py BUILD: whether each C++ file of src/ and bindings/ compiles by itself, headers too.
 
 BUILD compiles the files of a folder together (DELAM_UNITY), where one finds what another includes or defines. Here the
-compiler reads each of them alone, with the flags of BUILD and without making code.
+compiler reads each of them alone, with the flags of BUILD and without making code; a header has those of the file of its
+name, or of one in its folder, or in the nearest one above it that has any.
 """
 import json
 import os
@@ -36,9 +37,27 @@ def jobs(build):
     return out
 
 
+def with_headers(files):
+    """The same with the headers beside these files and below them, as git knows them."""
+    by_folder = {os.path.dirname(file): job for file, job in sorted(files.items(), reverse=True)}
+    listed = subprocess.run(["git", "ls-files", "src/*.hpp", "bindings/*.hpp"], cwd=ROOT, capture_output=True, text=True,
+                            check=False).stdout.split()
+    out = dict(files)
+    for header in listed:
+        path = os.path.join(ROOT, header)
+        folder = os.path.dirname(path)
+        while folder not in by_folder and folder != ROOT:
+            folder = os.path.dirname(folder)
+        job = files.get(path.removesuffix(".hpp") + ".cpp", by_folder.get(folder))
+        if job:
+            out[path] = job
+    return out
+
+
 def complaint(job):
     file, (words, folder) = job
-    done = subprocess.run([*words, "-fsyntax-only", file], cwd=folder, capture_output=True, text=True, check=False)
+    read = ["-x", "c++", "-include", file, os.devnull] if file.endswith(".hpp") else [file]
+    done = subprocess.run([*words, "-fsyntax-only", *read], cwd=folder, capture_output=True, text=True, check=False)
     return f"{os.path.relpath(file, ROOT)}:\n{done.stderr}" if done.returncode != 0 else ""
 
 
@@ -46,6 +65,7 @@ def main():
     found = jobs(os.path.abspath(sys.argv[1]))
     if not found:
         sys.exit(f"{sys.argv[1]}: no file of src/ or bindings/ in its compile_commands.json")
+    found = with_headers(found)
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
         complaints = [text for text in pool.map(complaint, found.items()) if text]
     print("".join(complaints), end="")

@@ -108,6 +108,26 @@ LOOP_TEST(congruences, 0, 6) {
             ck_assert(c.column[at(e)] < c.column[at(e) + 1]);
 }
 
+// The sum has the entries of both, in the order that the triplets of both give.
+LOOP_TEST(sums_of_sparse_matrices, 0, 6) {
+    Random random(static_cast<unsigned>(loop) + 50U);
+    const Index rows = 1 + 7 * loop, columns = 2 + 5 * loop;
+    std::vector<Triplet> first, second;
+    for (Index k = 0; k < 2 * rows * loop; ++k) {
+        std::vector<Triplet>& to = random.one_in(3) ? first : second;
+        to.push_back({random.below(rows), random.below(columns), random.real()});
+    }
+    const SparseMatrix a = from_triplets(rows, columns, first), b = from_triplets(rows, columns, second);
+    const SparseMatrix both = sum(a, b);
+    DenseMatrix expected = dense_of(a);
+    add_scaled(1.0, dense_of(b).value, expected.value);
+    expect_close(dense_of(both).value, expected.value, 1e-15, "A + B");
+    first.insert(first.end(), second.begin(), second.end());
+    const SparseMatrix at_once = from_triplets(rows, columns, std::move(first));
+    ck_assert(both.start == at_once.start);
+    ck_assert(both.column == at_once.column);
+}
+
 LOOP_TEST(echelons, 0, 60) {
     Random random(static_cast<unsigned>(loop) + 70U);
     const Index rows = 1 + loop % 7, columns = 1 + random.below(9), preferred = random.below(columns + 1);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "evolution/increment/increment.hpp"
 #include "evolution/increment/state.hpp"
 
 namespace delam {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "delam/delam.h"
 
 namespace delam {
 

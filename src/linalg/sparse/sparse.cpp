@@ -61,6 +61,29 @@ SparseMatrix from_triplets(std::int64_t rows, std::int64_t columns, std::vector<
     return m;
 }
 
+SparseMatrix sum(const SparseMatrix& a, const SparseMatrix& b) {
+    SparseMatrix m;
+    m.rows = a.rows;
+    m.columns = a.columns;
+    m.start.reserve(a.start.size());
+    m.column.reserve(a.column.size() + b.column.size());
+    m.value.reserve(a.value.size() + b.value.size());
+    for (std::size_t r = 0; r < index(a.rows); ++r) {
+        std::size_t i = index(a.start[r]), j = index(b.start[r]);
+        const std::size_t i_end = index(a.start[r + 1]), j_end = index(b.start[r + 1]);
+        while (i < i_end || j < j_end) {
+            const bool of_a = i < i_end && (j == j_end || a.column[i] <= b.column[j]);
+            const bool of_b = j < j_end && (i == i_end || b.column[j] <= a.column[i]);
+            m.column.push_back(of_a ? a.column[i] : b.column[j]);
+            m.value.push_back((of_a ? a.value[i] : 0.0) + (of_b ? b.value[j] : 0.0));
+            i += of_a ? 1 : 0;
+            j += of_b ? 1 : 0;
+        }
+        m.start.push_back(static_cast<std::int64_t>(m.column.size()));
+    }
+    return m;
+}
+
 void multiply(const SparseMatrix& a, std::span<const double> x, std::span<double> y) {
     const auto at = [](std::int64_t i) { return index(i); };
     for (std::size_t r = 0; r < at(a.rows); ++r) {

@@ -30,6 +30,9 @@ struct Triplet {
 // Sums duplicates in the given order, so that the result is reproducible.
 SparseMatrix from_triplets(std::int64_t rows, std::int64_t columns, std::vector<Triplet> triplets);
 
+// Returns A + B, with every entry of either.
+SparseMatrix sum(const SparseMatrix& a, const SparseMatrix& b);
+
 // y = A x
 void multiply(const SparseMatrix& a, std::span<const double> x, std::span<double> y);
 // y = A^T x

@@ -99,12 +99,7 @@ SparseMatrix with_diagonal(SparseMatrix k, std::int64_t first) {
         if (!std::binary_search(begin, end, r)) missing.push_back({r, r, 0.0});
     }
     if (missing.empty()) return k;
-    std::vector<Triplet> all;
-    for (std::int64_t r = 0; r < k.rows; ++r)
-        for (std::int64_t e = k.start[index(r)]; e < k.start[index(r) + 1]; ++e)
-            all.push_back({r, k.column[index(e)], k.value[index(e)]});
-    all.insert(all.end(), missing.begin(), missing.end());
-    return from_triplets(k.rows, k.columns, std::move(all));
+    return sum(k, from_triplets(k.rows, k.columns, std::move(missing)));
 }
 
 }  // namespace
