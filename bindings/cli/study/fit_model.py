@@ -311,7 +311,7 @@ class Model:
 
     def _analyse(self, which, name, settings):
         out = os.path.join(self.work, f"{which + 1}-{name}")
-        code = finish(start(self.files[which], out, settings))
+        code = finish(start(self.files[which], out, settings + ["output.fields=[]", "output.brief=true"]))
         self.analyses += 1
         if code == INTERRUPTED:
             raise KeyboardInterrupt

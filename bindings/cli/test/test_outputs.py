@@ -86,10 +86,13 @@ expect(about["front_unresolved"] == [] and "warning: in " not in text, "a resolv
 expect(about["rotation_max"] > 0.1 and "cells rotate by up to" in text, "large rotations are")
 expect(about["small_rotations"]["buckling_ratio"] < 0.1 and "bodies buckle" not in text, "nothing buckles")
 blister = read(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../examples/blister/blister.toml")).decode()
-for line, asks in (("", True), ('kinematics = "linear"', False)):
+for line, brief, asks in (("", "false", True), ('kinematics = "linear"', "false", False), ("", "true", False)):
     flat = folder()
-    code, closing, _ = delam("run", write(blister.replace('kinematics = "corotational"', line)), "--out", flat, "--set", "time.steps=2")
-    small = json.loads(read(os.path.join(flat, "result.json")))["small_rotations"]
+    code, closing, _ = delam("run", write(blister.replace('kinematics = "corotational"', line)), "--out", flat, "--set", "time.steps=2",
+                             "--set", "output.fields=[]", "--set", f"output.brief={brief}")
+    ended = json.loads(read(os.path.join(flat, "result.json")))
+    small = ended["small_rotations"]
+    expect((ended["mesh_error"] is None) == (brief == "true"), f"the error of the mesh, brief = {brief}: {ended['mesh_error']}")
     expect(code == 0 and ("those at which the bodies buckle" in closing) == asks, f"a film that would rise, {line or 'default'}: {closing[-300:]}")
     expect(abs(small["buckling_ratio"] / 3.25 - 1) < 0.02 if asks else small["buckling_ratio"] is None, f"its ratio: {small}")
 with h5py.File(os.path.join(out, "fields.h5")) as file:

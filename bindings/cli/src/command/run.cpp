@@ -163,10 +163,9 @@ public:
         BulkFacts bulk = fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step), state_.problem_hash,
                                           concept_of(solver_.get()));
         // Without fields, the last state is estimated; of many processes, none has all displacements.
-        if (!std::isfinite(bulk.mesh_error.away) && !fields_.on_many_processes())
-            bulk.mesh_error = mesh_error_of(model_, solver_.get());
-        outcome.closing = closing_of(model_, solver_.get(), scene_, rows_->text(), bulk,
-                                     outcome.complete && !fields_.on_many_processes());
+        const bool examined = !scene_.output.brief && !fields_.on_many_processes();
+        if (!std::isfinite(bulk.mesh_error.away) && examined) bulk.mesh_error = mesh_error_of(model_, solver_.get());
+        outcome.closing = closing_of(model_, solver_.get(), scene_, rows_->text(), bulk, outcome.complete && examined);
         outcome.closing_lines = closing_lines(outcome.closing, scene_);
         outcome.has_jumps = writes_jumps(outcome.closing.jumps, solver_.get());
         const std::string jumps_file = folder_.running() + "/jumps.csv";

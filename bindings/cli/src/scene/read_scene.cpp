@@ -204,6 +204,7 @@ void read_output(const Table& root, Scene& scene) {
     output.own_snapshots = table.has("snapshots");
     output.snapshots = table.numbers("snapshots");
     output.displacement_scale = table.number("displacement_scale");
+    output.brief = table.flag("brief");
     if (table.has("columns")) output.columns = table.texts("columns");
     output.columns_place = table.place("columns");
     if (table.has("sensitivities")) output.sensitivities = table.texts("sensitivities");

@@ -250,6 +250,7 @@ struct Output {
     std::vector<double> snapshots;
     bool own_snapshots = false;  // the scene names them
     double displacement_scale = 5;
+    bool brief = false;                // the end is not examined
     std::vector<std::string> columns;  // values of the solver beyond the standard columns of history.csv
     Place columns_place;
     std::vector<std::string>

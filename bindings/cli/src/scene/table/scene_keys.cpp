@@ -148,6 +148,8 @@ KeyTable output_table() {
         number_key("displacement_scale", not_negative)
             .otherwise("5")
             .says("factor on the displacements in the pictures"),
+        flag_key("brief").says("leaves out what takes time to examine at the end: errors of the mesh and of small "
+                               "rotations, buckling"),
         texts_key("columns").says("further columns of history.csv"),
         texts_key("sensitivities")
             .says(
