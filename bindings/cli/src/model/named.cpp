@@ -2,6 +2,7 @@
 #include "model/named.hpp"
 
 #include <regex>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -12,17 +13,55 @@ namespace cli {
 namespace {
 
 // Replaces every match of `pattern` by the result of `with`. std::regex calls itself for each repetition, and a message
-// may contain the user's words: repetitions are bounded.
+// may contain the user's words: repetitions are bounded. A text without this word does not need the pattern, which
+// takes longer to read than the text.
 template <class With>
-std::string replaced(const std::string& text, const std::regex& pattern, With with) {
+std::string replaced(const std::string& text, std::string_view word, const char* pattern, With with) {
+    if (text.find(word) == std::string::npos) return text;
+    const std::regex expected(pattern);
     std::string out;
     auto from = text.begin();
-    for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
+    for (std::sregex_iterator match(text.begin(), text.end(), expected), end; match != end; ++match) {
         out.append(from, text.begin() + match->position());
         out += with(*match);
         from = text.begin() + match->position() + match->length();
     }
     return out.append(from, text.end());
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+// True if a word or a name given by the user may go on with it.
+bool goes_on(char c) {
+    return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '"' || c == '-';
+}
+
+// Returns the end of a whole number of up to nine digits that stands alone at a place; npos: there is none.
+std::size_t number_end(std::string_view text, std::size_t at) {
+    std::size_t end = at;
+    while (end < text.size() && end < at + 9 && is_digit(text[end])) ++end;
+    const bool fraction = end + 1 < text.size() && text[end] == '.' && is_digit(text[end + 1]);
+    return end > at && !fraction && (end == text.size() || !goes_on(text[end])) ? end : std::string::npos;
+}
+
+// Names what the numbers behind a noun are: "interface 0", and behind a plural "interfaces 0, 1 and 2"; but not within
+// a name given by the user. noun: with the blank behind it; as: what stands in its place.
+template <class Name>
+std::string named_numbers(const std::string& text, std::string_view noun, std::string_view as, bool plural, Name name) {
+    std::string out;
+    std::size_t done = 0;
+    for (std::size_t at = text.find(noun); at != std::string::npos; at = text.find(noun, at + 1)) {
+        std::size_t number = at + noun.size();
+        if (at < done || (at > 0 && goes_on(text[at - 1])) || number_end(text, number) == std::string::npos) continue;
+        out.append(text, done, at - done).append(as);
+        done = number;
+        for (std::size_t end = 0; (end = number_end(text, number)) != std::string::npos;) {
+            out.append(text, done, number - done).append(name(text.substr(number, end - number)));
+            done = end;
+            if (!plural) break;
+            number = end + (text.compare(end, 2, ", ") == 0 ? 2 : text.compare(end, 5, " and ") == 0 ? 5 : 0);
+        }
+    }
+    return out.append(text, done);
 }
 
 }  // namespace
@@ -32,16 +71,14 @@ std::string said_of_scene(const std::string& message, const Model& model) {
         const std::size_t index = std::stoul(number);
         return index < model.interfaces.size() ? fmt::format("\"{}\"", model.interfaces[index].name) : number;
     };
-    // "interface 0", "interfaces 0, 1 and 2"; but not within a name given by the user.
-    std::string out = replaced(
-        message, std::regex(R"((^|[^"\w-])(interfaces?) (\d{1,9}(?:(?:, | and )\d{1,9}){0,30})\b(?!["-]))"),
-        [&](const std::smatch& m) {
-            return m[1].str() + m[2].str() + " " +
-                   replaced(m[3].str(), std::regex(R"(\d+)"), [&](const std::smatch& n) { return interface(n.str()); });
-        });
-    out = replaced(out, std::regex(R"( \(delam_problem_propose\))"), [](const std::smatch&) { return std::string(); });
-    return replaced(out, std::regex(R"((solution|backtracking) = (energetic|on)\b)"),
-                    [](const std::smatch& m) { return fmt::format("{} = \"{}\"", m[1].str(), m[2].str()); });
+    std::string out = named_numbers(message, "interface ", "interface ", false, interface);
+    out = named_numbers(out, "interfaces ", "interfaces ", true, interface);
+    out = replaced(out, "delam_problem_propose", R"( \(delam_problem_propose\))",
+                   [](const std::smatch&) { return std::string(); });
+    out = replaced(out, "solution = energetic", R"(\bsolution = energetic\b)",
+                   [](const std::smatch&) { return std::string("solution = \"energetic\""); });
+    return replaced(out, "backtracking = on", R"(\bbacktracking = on\b)",
+                    [](const std::smatch&) { return std::string("backtracking = \"on\""); });
 }
 
 std::string named(const std::string& message, const Scene& scene, const Model& model) {
@@ -49,24 +86,17 @@ std::string named(const std::string& message, const Scene& scene, const Model& m
         const std::size_t index = std::stoul(number);
         return index < scene.layers.size() ? fmt::format("\"{}\"", scene.layers[index].name) : number;
     };
-    const std::string noun = scene.mesh ? "body" : "layer", nouns = scene.mesh ? "bodies" : "layers";
-    // "bodies 0 and 1", "bodies 0, 1, 2", "body 3"; but not within a name given by the user.
-    std::string out =
-        replaced(message, std::regex(R"(\bbodies (\d{1,9}(?:(?:, | and )\d{1,9}){0,30}))"), [&](const std::smatch& m) {
-            return nouns + " " +
-                   replaced(m[1].str(), std::regex(R"(\d+)"), [&](const std::smatch& n) { return body(n.str()); });
-        });
-    out = replaced(out, std::regex(R"((^|[^"\w-])body (\d{1,9})\b(?!["-]))"),
-                   [&](const std::smatch& m) { return m[1].str() + noun + " " + body(m[2].str()); });
+    std::string out = named_numbers(message, "bodies ", scene.mesh ? "bodies " : "layers ", true, body);
+    out = named_numbers(out, "body ", scene.mesh ? "body " : "layer ", false, body);
     out = said_of_scene(out, model);
-    out = replaced(out, std::regex(R"(\bcontrol node (\d{1,9}))"), [&](const std::smatch& m) {
+    out = replaced(out, "control node ", R"(\bcontrol node (\d{1,9}))", [&](const std::smatch& m) {
         if (scene.controls.empty() || model.mesh == nullptr) return m.str();
         const std::int64_t first = control_node(model.context.get(), model.mesh.get(), scene, 0, scene.geometry.place);
         const std::int64_t index = std::stoll(m[1].str()) - first;
         if (index < 0 || index >= static_cast<std::int64_t>(scene.controls.size())) return m.str();
         return fmt::format("control node \"{}\"", scene.controls[static_cast<std::size_t>(index)].name);
     });
-    return replaced(out, std::regex(R"(\bconstraint (\d{1,9}) \()"), [&](const std::smatch& m) {
+    return replaced(out, "constraint ", R"(\bconstraint (\d{1,9}) \()", [&](const std::smatch& m) {
         const std::size_t index = std::stoul(m[1].str());
         if (index >= model.constraint_places.size()) return m.str();
         const Place& place = model.constraint_places[index];
