@@ -17,9 +17,9 @@ import command
 from _pictures.input_file import LAST_WORDS, MOST_RESULT, Unreadable, quoted, read_columns, read_end, read_json
 from command import DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, OUTPUT, WRONG, Trouble
 
-__all__ = ["DONE", "INTERRUPTED", "NOT_CONVERGED", "NUMERICAL", "OUTPUT", "WRONG", "Check", "Trouble", "end_all", "finish",
+__all__ = ["DONE", "INTERRUPTED", "NOT_CONVERGED", "NUMERICAL", "OUTPUT", "WRONG", "Check", "Trouble", "analyse", "end_all",
            "given_words", "hold", "last_words", "make_folder", "number_in", "path_of", "read_about", "read_history",
-           "refuse_set", "run_study", "setting", "start", "value_at"]
+           "refuse_set", "run_study", "setting", "value_at"]
 
 # Numbers whose squares, and sums and quotients of those, are still numbers with all digits.
 LEAST, MOST = 1e-150, 1e150
@@ -77,23 +77,35 @@ def value_at(scene, path):
     return number_in(repr(at), path)
 
 
-running = []  # analyses that a signal must end
+class Worker:
+    """A process that runs analyses, one after another (`delam serve`)."""
+
+    def __init__(self):
+        self.child = subprocess.Popen([program(), "serve"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                                      env=dict(os.environ, OPENBLAS_NUM_THREADS="1"))
+        self.lives = True
+
+    def exit_code(self, job):
+        """The exit code of an analysis; below 0: a signal has ended it."""
+        try:
+            self.child.stdin.write(json.dumps(job) + "\n")
+            self.child.stdin.flush()
+            answer = self.child.stdout.readline()
+        except BrokenPipeError:
+            answer = ""
+        self.lives = answer != ""
+        return int(answer) if self.lives else self.child.wait()
+
+
+busy, idle = [], []  # workers
 lock = threading.Lock()
 
 
 def end_all():
     """Every analysis keeps its finished steps."""
     with lock:
-        for child in running:
-            child.send_signal(signal.SIGTERM)
-
-
-def finish(child):
-    """The exit code of an analysis."""
-    code = child.wait()
-    with lock:
-        running.remove(child)
-    return code
+        for worker in busy + idle:
+            worker.child.send_signal(signal.SIGTERM)
 
 
 def run_study(main):
@@ -140,19 +152,23 @@ def refuse_foreign_log(path):
             raise Trouble(f"cannot write {path}: it is no log of delam run: move it away", OUTPUT)
 
 
-def start(scene, out, settings, resume=False, one_thread=True):
-    """A running `delam run`; its words go to OUT.log beside the folder of the result."""
-    command = [program(), "run", scene, "--out", out] + [word for one in settings for word in ("--set", one)]
-    environment = dict(os.environ, **({"OPENBLAS_NUM_THREADS": "1"} if one_thread else {}))
+def analyse(scene, out, settings, resume=False):
+    """The exit code of `delam run`, whose words go to OUT.log beside the folder of the result."""
+    words = shlex.join(["run", scene, "--out", out] + [word for one in settings for word in ("--set", one)])
     refuse_foreign_log(out + ".log")
     flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW | os.O_CLOEXEC
     with os.fdopen(os.open(out + ".log", flags, 0o666), "w", encoding="utf-8") as log:
-        log.write(LOG_BEGINS + shlex.join(command[1:]) + "\n")
-        log.flush()
-        with lock:
-            running.append(subprocess.Popen(command + (["--resume"] if resume else []), stdout=log,
-                                            stderr=subprocess.STDOUT, env=environment))
-            return running[-1]
+        log.write(LOG_BEGINS + words + "\n")
+    with lock:
+        worker = idle.pop() if idle else Worker()
+        busy.append(worker)
+    code = worker.exit_code({"scene": scene, "set": settings, "out": out, "resume": resume, "log": out + ".log",
+                             "command": f"{program()} {words}"})
+    with lock:
+        busy.remove(worker)
+        if worker.lives:
+            idle.append(worker)
+    return code
 
 
 class Check:

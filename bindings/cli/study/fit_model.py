@@ -11,8 +11,8 @@ import numpy as np
 
 from _pictures.input_file import MOST_SCENE, quoted, read_text
 from command import complain
-from analyses import (DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, WRONG, Check, Trouble, finish, last_words, number_in,
-                     path_of, read_history, setting, start, value_at)
+from analyses import (DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, WRONG, Check, Trouble, analyse, last_words, number_in,
+                     path_of, read_history, setting, value_at)
 from measured.units import kind_of
 
 SMALL_PART = 0.05  # of the range of a scene: less is covered by curves in metres, centimetres, inches for millimetres
@@ -311,7 +311,7 @@ class Model:
 
     def _analyse(self, which, name, settings):
         out = os.path.join(self.work, f"{which + 1}-{name}")
-        code = finish(start(self.files[which], out, settings + ["output.fields=[]", "output.brief=true"]))
+        code = analyse(self.files[which], out, settings + ["output.fields=[]", "output.brief=true"])
         self.analyses += 1
         if code == INTERRUPTED:
             raise KeyboardInterrupt

@@ -27,9 +27,9 @@ import numpy as np  # noqa: E402
 
 from _pictures.input_file import MOST_MESH, MOST_SCENE, MOST_SWEEP, Unreadable, read_bytes, read_json  # noqa: E402
 from command import complain, loading, on_interrupt, say  # noqa: E402
-from analyses import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Check, Trouble, end_all, finish,  # noqa: E402
+from analyses import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Check, Trouble, analyse, end_all,  # noqa: E402
                      given_words, hold, last_words, read_about, read_history, refuse_foreign_log,  # noqa: E402
-                     refuse_set, run_study, setting, start)
+                     refuse_set, run_study, setting)
 from own_files import claim, discard, write_file  # noqa: E402
 from variations import Variation, grid, latin  # noqa: E402
 
@@ -146,7 +146,7 @@ class Sweep:
         out = self.folder(number)
         if self.ended.is_set():
             return
-        code = finish(start(self.scene, out, self.settings(self.points[number]), resume=self.can_resume(out)))
+        code = analyse(self.scene, out, self.settings(self.points[number]), resume=self.can_resume(out))
         with self.lock:
             if code == INTERRUPTED or self.ended.is_set():
                 return

@@ -49,6 +49,9 @@ struct Study {
     std::vector<std::string> units, calibration;
 };
 int study(const Study& study);
+// Runs analyses for a study, one after another in this process: each line of standard input names one, and its exit
+// code becomes a line of standard output. Returns when there are no more lines.
+int serve(const Caller& caller);
 // Becomes a Python script of share/delam, which gets these words.
 [[noreturn]] void start_script(const std::string& name, const std::string& words);
 

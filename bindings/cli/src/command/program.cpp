@@ -59,7 +59,7 @@ struct Arguments {
 };
 
 struct Commands {
-    CLI::App *run, *check, *import, *specimen, *view, *sweep, *fit, *evaluate, *own, *options, *schema, *man,
+    CLI::App *run, *check, *import, *specimen, *view, *sweep, *fit, *evaluate, *own, *serve, *options, *schema, *man,
         *completion;
     std::map<std::string, std::vector<std::string>> choices;  // by option
 };
@@ -341,6 +341,7 @@ void add_own(CLI::App& app, Arguments& into, Commands& of) {
     of.own->add_option("action", into.page)->required()->check(CLI::IsMember({"claim", "discard"}));
     of.own->add_option("names", into.names)->required();
     of.own->add_flag("--known", into.known);
+    of.serve = app.add_subcommand("serve", "runs analyses of a study (study/MANUAL.md)")->group("");
 }
 
 void add_studies(CLI::App& app, Arguments& into, Commands& of) {
@@ -435,7 +436,7 @@ std::vector<std::string> words_of(int argc, char** argv, const CLI::App& app) {
     if (words[0].empty() || words[0][0] == '-') return words;
     const std::vector<std::string> known = names_of_commands(app);
     const auto is_known = [&](const std::string& word) {
-        return std::find(known.begin(), known.end(), word) != known.end() || word == "own";
+        return std::find(known.begin(), known.end(), word) != known.end() || word == "own" || word == "serve";
     };
     const bool help = words[0] == "help";
     if (help) words.erase(words.begin());
@@ -508,6 +509,7 @@ int guarded(int argc, char** argv, const Caller& caller) {
         return given.page == "discard" ? discard(names)
                                        : claim(names.front(), {names.begin() + 1, names.end()}, given.known);
     }
+    if (of.serve->parsed()) return serve(caller);
     if (of.check->parsed()) return check(given.scene, given.settings, given.json, given.page, caller);
     if (of.run->parsed()) {
         say_json_lines(given.progress == "json");
@@ -526,9 +528,11 @@ int failed(const std::string& message, int code) {
     return code;
 }
 
-int reported(int argc, char** argv, const Caller& caller) {
+}  // namespace
+
+int reported(const std::function<int()>& command) {
     try {
-        return guarded(argc, argv, caller);
+        return command();
     } catch (const Failure& failure) {
         return failed(failure.what(), failure.code());
     } catch (const std::bad_alloc&) {
@@ -538,11 +542,9 @@ int reported(int argc, char** argv, const Caller& caller) {
     }
 }
 
-}  // namespace
-
 int program(int argc, char** argv, const Caller& caller) {
     say_json_lines(false);
-    int code = reported(argc, argv, caller);
+    int code = reported([&] { return guarded(argc, argv, caller); });
     say_event("end", fmt::format("\"exit_code\": {}", code));
     // A full disk behind standard output shows here at the latest; a worse exit code is kept.
     errno = 0;

@@ -7,5 +7,7 @@
 namespace cli {
 
 int program(int argc, char** argv, const Caller& caller);
+// Returns the exit code of a command; what it throws is said in one line.
+int reported(const std::function<int()>& command);
 
 }  // namespace cli

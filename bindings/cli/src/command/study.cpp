@@ -2,14 +2,20 @@
 // `delam sweep`, `delam fit` and `delam evaluate`: SciPy's methods and Matplotlib's pictures, so the rest is in Python.
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <iostream>
+#include <string>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include "command/commands.hpp"
+#include "command/interrupt.hpp"
+#include "command/program.hpp"
 #include "file/data_file.hpp"
 #include "text/error.hpp"
 
@@ -70,6 +76,38 @@ int study(const Study& of) {
         throw Failure(exit_scene, "a name on the command line is not UTF-8, which studies need");
     }
     start_script("study/" + of.name + ".py", words);
+}
+
+namespace {
+
+// Lets an analysis speak into its log, which the study has begun; a link is not followed.
+void say_into(const std::string& log) {
+    const int file = ::open(log.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
+    if (file < 0) throw OutputFailure(log, std::strerror(errno));
+    const bool said = ::dup2(file, STDOUT_FILENO) >= 0 && ::dup2(file, STDERR_FILENO) >= 0;
+    ::close(file);
+    if (!said) throw OutputFailure(log, std::strerror(errno));
+}
+
+int served(const nlohmann::json& job, const Caller& caller) {
+    say_into(job.at("log"));
+    return run(job.at("scene"), job.at("set"), job.at("out"), job.at("resume"), job.at("command"), caller);
+}
+
+}  // namespace
+
+int serve(const Caller& caller) {
+    const int answers = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    std::string line;
+    while (answers >= 0 && !Interrupt::requested() && std::getline(std::cin, line)) {
+        int code = reported([&] { return served(nlohmann::json::parse(line), caller); });
+        // A full disk behind the log shows here at the latest.
+        if ((std::fflush(stdout) != 0 || std::ferror(stdout) != 0) && code <= exit_not_converged) code = exit_output;
+        std::clearerr(stdout);
+        const std::string answer = fmt::format("{}\n", code);
+        if (::write(answers, answer.data(), answer.size()) != static_cast<ssize_t>(answer.size())) break;
+    }
+    return exit_done;
 }
 
 }  // namespace cli
