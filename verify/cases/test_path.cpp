@@ -201,6 +201,64 @@ LOOP_TEST(ledger_of_a_jump, 0, 2) {
     }
 }
 
+// A double cantilever with a second notch before its crack (mm, N). The ligament between them snaps when its zones have
+// met, with 4 mm of crack behind it: where the load is controlled at the end of the arm, that is a jump.
+Scene with_ligament(std::int64_t cells) {
+    constexpr double length = 60.0, arm = 1.5, stiffness = 1e5, strength = 20.0;
+    Scene scene(2, {length}, {cells}, {arm, arm}, {2, 2}, DELAM_QUAD4);
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, 70e3, 0.3);
+    scene.require(delam_problem_set_formulation(scene.problem(), -1, "incompatible"), "formulation");
+    const double onset = 0.5 * strength * strength / stiffness;
+    scene.law(0, {stiffness, stiffness, onset, onset, 0.3, 0.3, 1.0});
+    const auto pairs = scene.pairs(0);
+    std::vector<std::int64_t> open;
+    for (std::size_t p = 0; p < pairs.count(); ++p)
+        if (const double x = scene.coordinate(pairs.node_a[p], 0);
+            x < 15.0 - 1e-6 || (x > 20.0 + 1e-6 && x < 30.0 - 1e-6))
+            open.push_back(static_cast<std::int64_t>(p));
+    scene.adhesion(0, open, std::vector<double>(open.size(), 0.0));
+    const auto end = cases::nodes_where(scene, -1, [](const double* x) { return x[0] > length - 1e-6; });
+    for (int k = 0; k < 2; ++k) scene.hold(end, cases::unit(2, k));
+    const auto load = scene.pattern("open", {0.0, 1.0}, {0.0, 1.5});
+    for (const int body : {0, 1}) {
+        const auto tip = cases::nodes_where(scene, body, [&](const double* x) {
+            return x[0] < 1e-6 && (body == 0 ? x[1] < 1e-6 : x[1] > 2 * arm - 1e-6);
+        });
+        scene.drive(tip, cases::unit(2, 1), load, std::vector<double>(tip.size(), body == 0 ? -0.5 : 0.5));
+    }
+    return scene;
+}
+
+// The last ligament between two cracks is one jump, at one load and with one release, in coarse steps and in fine ones,
+// whether ten pairs or twenty are left between them.
+LOOP_TEST(a_ligament_snaps, 0, 2) {
+    const Scene scene = with_ligament(loop == 0 ? 120 : 240);
+    double fine = 0.0, instant = 0.0;
+    for (const int steps : {50, 15, 5}) {
+        Solver solver(scene, 0.0);
+        double jumps = 0.0, open = 0.0, at = 0.0, released = 0.0;
+        for (int k = 1; k <= steps; ++k) {
+            solver.step(static_cast<double>(k) / steps);
+            jumps += solver.value("jumps");
+            open = std::max(open, std::abs(solver.value("defect")));
+            solver.commit();
+        }
+        double before = 0.0, stored = 0.0, dissipated = 0.0, debonded = 0.0;
+        std::int64_t step = 0, interface = 0, first = 0, last = 0;
+        REQUIRE(scene, delam_solver_jump, solver.get(), 0, &step, &before, &at, &stored, &dissipated, &released,
+                &debonded, &interface, &first, &last);
+        std::printf("%d steps: at %.6g released %.6g, open %.3g of %.6g\n", steps, at, released, open,
+                    solver.value("dissipated"));
+        cases::expect(jumps == 1.0, std::to_string(jumps) + " jumps in " + std::to_string(steps) + " steps");
+        if (steps == 50) fine = released, instant = at;
+        cases::expect_near(at, instant, 5e-3, instant, "instant");
+        cases::expect_near(released, fine, 2e-2, fine, "released");
+        cases::expect_below(open, 1e-2 * solver.value("dissipated"), "left open");
+    }
+}
+
 // A front with few pairs in its process zone follows path_step, too: each time that parts are half as long, the
 // dissipated energy changes, and by less and less.
 LOOP_TEST(few_pairs_follow_path_step, 0, 2) {

@@ -13,9 +13,10 @@ namespace delam {
 // Sizes, L or L2, of the interface on which most has been dissipated.
 struct Advance {
     double area = 0.0;    // that has been dissipated
-    double row = 0.0;     // of the pairs on the fronts, next to pairs whose toughness is spent; without, of those that
-                          // lose most
+    double row = 0.0;     // of the pairs on the fronts that advance most, next to pairs whose toughness is spent;
+                          // without fronts, of the pairs that lose most
     bool fronts = false;  // there are such fronts
+    bool met = false;     // nothing adheres any more where most was dissipated: fronts have met, or reached an end
     double zone = 0.0;    // of all pairs that were damaged
     double whole = 0.0;   // of the interface, as far as it adhered at first
 };
