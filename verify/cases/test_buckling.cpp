@@ -441,3 +441,45 @@ TEST(small_rotations_tell_their_error) {
             cases::expect(error < 1e-2 && truth < 1e-2, "error of a beam that is bent");
     }
 }
+
+// A strip between two clamps that is pressed in the middle stretches, whatever its small rotations: the energy that
+// they leave out is that of the stretch, in the plane and in space. Where an end may slide, they leave out little.
+LOOP_TEST(small_rotations_leave_out_a_stretch, 0, 2) {
+    const int d = 2 + loop;
+    for (const bool slides : {false, true})
+        for (const double deflection : {0.1, 0.5}) {
+            double error = 0.0, stored[2] = {};
+            for (const int way : {0, 1}) {
+                Scene scene = d == 2
+                                  ? cases::make_blocks(2, {{{0.0, 0.0, 0.0}, {20.0, 0.5, 0.0}, {40, 2, 1}}}, nullptr)
+                                  : cases::make_blocks(3, {{{0.0, 0.0, 0.0}, {20.0, 1.0, 0.5}, {40, 1, 2}}}, nullptr);
+                scene.begin();
+                scene.elastic(-1, 1000.0, 0.0);
+                scene.require(delam_problem_set_formulation(scene.problem(), -1, "incompatible"), "formulation");
+                scene.text("kinematics", way == 0 ? "linear" : "corotational");
+                const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, deflection});
+                const auto at = [&](double x) {
+                    return cases::nodes_where(scene, 0, [x](const double* p) { return std::abs(p[0] - x) < 1e-6; });
+                };
+                for (int k = 0; k < d; ++k) {
+                    hold(scene, at(0.0), cases::unit(d, k));
+                    if (k > 0 || !slides) hold(scene, at(20.0), cases::unit(d, k));
+                }
+                drive(scene, at(10.0), cases::unit(d, d - 1), load);
+                Solver solver(scene, 0.0);
+                for (int k = 1; k <= 4; ++k) {
+                    solver.step(k / 4.0);
+                    solver.commit();
+                }
+                if (way == 0) error = solver.value("rotation_error");
+                stored[way] = solver.value("stored_bulk");
+            }
+            const double truth = std::abs(stored[1] / stored[0] - 1.0);
+            std::printf("%dD, %s: %.4g left out of %.4g, estimated %.4g\n", d, slides ? "slides" : "clamped",
+                        stored[1] - stored[0], stored[0], error);
+            if (slides)
+                cases::expect(error < 5e-2 && truth < 5e-2, "an end that slides");
+            else
+                cases::expect(0.7 * truth < error && error < 1.4 * truth && truth > 0.01, "the stretch");
+        }
+}

@@ -57,16 +57,19 @@ void balance() {
                 "warning: energy balance: off by 25 % of the work (stored + dissipated + released - work is -2 J/m in "
                 "step 2, time 1; the work is up to 8 J/m)");
     expect(off.open() == 2.0 / 3.0, "over the dissipated energy");
-    expect_line(cli::energies_line(off, 0, flat),
+    expect_line(cli::energies_line(off, {}, flat),
                 "warning: energy balance: work 7 J/m = stored 2 J/m + dissipated 3 J/m + released 1 J/m + open 1 J/m; "
                 "open is 67 % of the dissipated energy at most (2 J/m in step 2, time 1)");
     const cli::Balance nearly = cli::balance_of(cli::rows_of(head + start + "2,1,2,1,3,8,2.996,2,3,0\n"), false);
     expect_line(cli::balance_line(nearly, space),
                 "energy balance: off by 0.05 % of the work (stored + dissipated + released - work is -0.004 J in step "
                 "2, time 1; the work is up to 8 J)");
-    expect_line(cli::energies_line(nearly, 2, space),
+    expect_line(cli::energies_line(nearly, {2, 3.0}, space),
                 "energy balance: work 8 J = stored 2 J + dissipated 3 J + released in 2 jumps 3 J + open 0.004 J; open "
                 "is 0.13 % of the dissipated energy at most (0.004 J in step 2, time 1)");
+    expect(
+        cli::energies_line(nearly, {1, 1.0}, space).find("+ released 3 J (1 J in 1 jump) + open") != std::string::npos,
+        "what pairs released that popped is no jump's");
     expect_line(
         cli::balance_line(cli::balance_of(cli::rows_of(head + std::string("0,0,0,0,0,0,0,0,0,0\n")), false), flat),
         "energy balance: no work was done");
@@ -76,12 +79,14 @@ void balance() {
 
 void pops() {
     const std::string rows = "step,work,pops,popped\n0,0,0,0\n1,5,3,0.02\n2,10,40,0.38\n";
-    const cli::Pops pops = cli::pops_of(cli::rows_of(rows));
+    const cli::Pops pops = cli::pops_of(cli::rows_of(rows), true);
     expect(pops.pairs == 43 && pops.released == 0.4 && pops.work == 10, "pairs that popped in all steps");
     expect_line(cli::pops_line(pops),
                 "warning: 43 pairs popped one by one and released 4 % of the work: the mesh does not resolve the "
                 "process zone (use smaller cells or less strength, which `delam check` proposes)");
-    expect_line(cli::pops_line({43, 0.05, 10}), "");
+    expect_line(cli::pops_line({43, 0.05, 10, true}), "");
+    expect(cli::pops_line(cli::pops_of(cli::rows_of(rows), false)).ends_with("has none: use one with strengths)"),
+           "what does not soften has no zone");
 }
 
 void mixity() {

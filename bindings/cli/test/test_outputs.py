@@ -110,6 +110,17 @@ expect(code == 0 and steps and "a crack grew with fewer than 3 pairs" in closing
 expect(",stress_xx:upper,strain_yy,rotation_max,solution" in read(os.path.join(other, "history.csv")).decode(), "columns of averages")
 expect_error(delam("check", write(changed("steps = 20", 'steps = 4\n[output]\ncolumns = ["stress_xx:middle"]'))), 2, "no such value")
 
+# A law that does not soften keeps its crack far beyond the toughness: both are told, and with energetic solutions neither.
+hard = changed('name = "ductile"', 'name = "ductile"\nkind = "griffith"')
+hard = "".join(line for line in hard.splitlines(True) if "onset" not in line)
+for solution, told in (("local", True), ("energetic", False)):
+    out = folder()
+    code, closing, words = delam("run", write(hard), "--out", out, "--set", "time.steps=4", "--set", f'solver.solution="{solution}"',
+                                 "--set", "laws.0.normal_stiffness=1e16", "--set", "laws.0.tangential_stiffness=1e16")
+    times = json.loads(read(os.path.join(out, "result.json")))["energy_release_rate_over_toughness"]
+    expect(("the law does not soften" in closing + words) == told and (times is not None and times > 1.25) == told and
+           ("times the largest toughness" in closing) == told, f"{solution}: {times}, {closing[-400:]}")
+
 two = changed("[[loads]]", '[[patterns]]\nname = "side"\ntimes = [0, 2]\nvalues = [0, 1]\n[[forces]]\n'
               'point = [0.03, 0.006]\nforce = [0.0, -100.0]\npattern = "side"\n[[loads]]')
 two = changed("steps = 20", 'steps = 4\n[output]\nevery = 3\nsnapshots = [1.0]\ncolumns = ["front"]', two)

@@ -84,6 +84,21 @@ std::vector<double> InitialStress::softening(std::span<const double> displacemen
     return force;
 }
 
+std::vector<double> InitialStress::forces() const {
+    const std::size_t dim = index(mesh_.dimension());
+    std::vector<double> force(index(mesh_.node_count()) * dim, 0.0);
+    each(force, [&](std::int64_t number, const Cell& cell, const std::array<double, 9>&) {
+        const std::array<double, 9> s = stress(number);
+        const double* g = cell.gradient.data();
+        for (const std::int64_t n : mesh_.cell(number)) {
+            for (std::size_t i = 0; i < dim; ++i)
+                for (std::size_t j = 0; j < dim; ++j) force[index(n) * dim + i] += cell.volume * s[i * dim + j] * g[j];
+            g += dim;
+        }
+    });
+    return force;
+}
+
 double InitialStress::work_on_rotations(std::span<const double> displacement) const {
     const std::size_t dim = index(mesh_.dimension());
     double work = 0.0;

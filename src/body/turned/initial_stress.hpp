@@ -24,6 +24,8 @@ public:
     std::vector<double> softening(std::span<const double> displacement) const;
     // Returns the work on the rotations of these displacements alone, 1/2 int s : W^T W dV with the skew part W of H.
     double work_on_rotations(std::span<const double> displacement) const;
+    // Returns the nodal forces of the stresses, [mesh DOFs]: their product with displacements is int s : H dV.
+    std::vector<double> forces() const;
 
 private:
     // The mean gradients of a cell's shape functions, [nodes][dimension], and its volume.

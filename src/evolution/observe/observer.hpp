@@ -31,6 +31,8 @@ struct MeshErrorShares {
     double excess = 0.0;  // energy that incompatible modes would take off standard cells
 };
 
+class HeldBodies;
+
 class Observer {
 public:
     // The arguments must outlive the observer.
@@ -81,8 +83,8 @@ public:
     // Returns the largest rotation of a cell, rad; NaN without cells. Recovers the displacements.
     double largest_rotation(const State& state);
     // Returns the relative error of strains that are linear in the displacements, about: the larger of half the square
-    // of the largest rotation, and the work of the stresses on the rotations over the energy of the bodies. 0 where
-    // strains know rotations; NaN without cells. Recovers the displacements.
+    // of the largest rotation, and the energy that rotations add over that of the bodies. 0 where strains know
+    // rotations; NaN without cells. Recovers the displacements.
     double rotation_error(const State& state);
     // Returns the present stresses over those at which the bodies buckle (critical_ratio).
     double buckling_ratio(const State& state);
@@ -114,6 +116,17 @@ private:
     std::vector<Strain> eigenstrains(const State& state) const;
     // Returns the stress at the centres of the cells, of any state with small rotations.
     std::vector<double> stress(const State& state);
+    // Returns the energy that the strains of rotations add, to fourth order in these, F L; NaN: not known.
+    double energy_of_rotations(const State& state);
+    // The springs at the adhesion of a state, with pairs held that contact presses together; touching: normal rows of
+    // pairs that touch without a force, [rows].
+    struct Holding {
+        Springs springs;
+        std::vector<std::uint8_t> touching;
+    };
+    Holding holding(const State& state) const;
+    // The bodies at the adhesion and contact of a state; null: they are not known, or free.
+    std::shared_ptr<const HeldBodies> held(const State& state);
     MeshError estimate(const State& state);
     const CentreGradients& centres();
     // Displacement gradients at the centres of the cells (CentreGradients::slopes), of the state that is shown.
@@ -132,6 +145,7 @@ private:
     std::unique_ptr<MeshErrorEstimate> estimates_;                // null: not yet needed
     std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // [interfaces]
     std::optional<MeshErrorShares> mesh_error_;                   // nothing: not estimated
+    std::shared_ptr<const HeldBodies> held_;                      // null: not factorised
     // These are made when they are first asked for, and then used always: so a resumed analysis has the same digits.
     std::map<std::int32_t, std::optional<AverageReadings>> averages_;
     std::map<std::int64_t, std::vector<LinearReading>> nodes_;

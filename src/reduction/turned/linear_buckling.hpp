@@ -8,17 +8,15 @@
 
 #include "base/monitor.hpp"
 #include "body/turned/initial_stress.hpp"
-#include "reduction/operator/response.hpp"
-#include "scene/problem.hpp"
+#include "reduction/turned/held_bodies.hpp"
 
 namespace delam {
 
 // Returns the largest factor of  G v = factor (K + springs) v,  with G from the stresses: above 1 they are beyond the
 // critical ones. touching: normal rows of faces that touch without a force, [rows]; they hold nothing, unless the mode
-// would press some of them into each other whichever its sign: then all of them hold. 0: the stresses soften nothing.
-// NaN where nobody here knows all bodies, or something is free to move, or the factor of the bodies takes more memory
-// than allowed. One factorisation of all bodies, or two.
-double critical_ratio(const Problem& problem, Springs springs, std::span<const std::uint8_t> touching,
-                      const InitialStress& stress, const Poll& poll);
+// would press some of them into each other whichever its sign: then all of them hold, with a factorisation of their
+// own. 0: the stresses soften nothing.
+double critical_ratio(const HeldBodies& held, std::span<const std::uint8_t> touching, const InitialStress& stress,
+                      const Poll& poll);
 
 }  // namespace delam

@@ -57,6 +57,16 @@ void judge_zone(const Problem& problem, std::int64_t i, Warnings& warnings) {
              " would do, or a lower strength (delam_problem_propose), or solution = energetic"));
 }
 
+// A law that does not soften debonds a pair when its spring holds the toughness: with the spring of a stiff interface,
+// that is far behind the load at which the crack could grow.
+void judge_spring(const Problem& problem, std::int64_t i, Warnings& warnings) {
+    if (problem.options.solution == "energetic") return;
+    add(warnings, i,
+        "the law does not soften: in a local solution a crack waits until the spring of a pair holds the toughness, so "
+        "that loads depend on the mesh and on the stiffness, and are too high; use a law with strengths, or solution = "
+        "energetic");
+}
+
 bool adheres(const InterfaceProperties& properties) {
     return std::any_of(properties.adhesion.begin(), properties.adhesion.end(), [](double zeta) { return zeta > 0.0; });
 }
@@ -124,9 +134,13 @@ void warn_of_scene(const Problem& problem, const Monitor& monitor) {
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(problem.interfaces.size()); ++i) {
         const InterfaceProperties& properties = problem.interfaces[index(i)];
         if (!properties.bonded) judge_overlap(problem, i, warnings);
-        if (properties.bonded || !properties.law || !properties.law->softens()) continue;
+        if (properties.bonded || !properties.law) continue;
         if (!adheres(properties)) {
             add(warnings, i, "no pair adheres at the start, so that contact alone acts");
+            continue;
+        }
+        if (!properties.law->softens()) {
+            judge_spring(problem, i, warnings);
             continue;
         }
         judge_zone(problem, i, warnings);

@@ -206,16 +206,18 @@ private:
             return sight();
         };
         Sight before = first == pending && last_seen_ ? *last_seen_ : seen(first - 1);
+        bool collapses = false;
         for (std::int64_t step = first; step <= pending; ++step) {
             Sight now = step == pending ? sight() : seen(step);
             fields_.judge(static_cast<std::size_t>(step), before, now);
+            if (step == first) collapses = now.collapses_from(before);
             before = std::move(now);
         }
         last_seen_ = std::move(before);
         const auto number = static_cast<std::size_t>(first - 1);
         if (!fields_.chosen(number) || fields_.written(number)) return;
         const SelectedStep selected(model_, solver_.get(), first - 1);
-        fields_.write_step(model_, solver_.get(), scene_, number);
+        fields_.write_step(model_, solver_.get(), scene_, number, collapses);
     }
 
     // Writes the fields, then the row: a step with a row is complete. Rewrites steps that this one revised; true if

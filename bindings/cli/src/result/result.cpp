@@ -227,6 +227,8 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
         {"estimate_violated", outcome.closing.estimate_violated},
         {"estimate_hollow", outcome.closing.estimate_inconclusive},
         {"front_unresolved", outcome.closing.front_unresolved},
+        {"energy_release_rate_over_toughness",
+         outcome.closing.waiting.times > 0 ? Json(outcome.closing.waiting.times) : Json(nullptr)},
         {"pops", {{"pairs", outcome.closing.pops.pairs}, {"released", outcome.closing.pops.released}}},
         {"free_bodies", free_bodies_json(outcome.closing.free_bodies)},
         {"rotation_max", outcome.closing.bulk.rotation_max},

@@ -8,12 +8,14 @@
 #include <fmt/format.h>
 
 #include "scene/units/labels.hpp"
+#include "text/say.hpp"
 
 namespace cli {
 
 namespace {
 
 constexpr double noticeable = 0.01;  // of the work, or of the dissipated energy
+constexpr double told_apart = 0.02;  // of what is released, by pairs that popped
 
 // Share of the energy below which work is rounding; with a tenth or ten times of it the same analyses have none
 // (ctest -R cli_decks).
@@ -87,16 +89,21 @@ std::string balance_line(const Balance& balance, const Scene& scene) {
         instant_text(balance.step, balance.time), energy(balance.work));
 }
 
-std::string energies_line(const Balance& balance, std::size_t jumps, const Scene& scene) {
+std::string energies_line(const Balance& balance, const JumpSum& jumps, const Scene& scene) {
     const auto energy = in_one_unit(balance, scene);
     if (std::string none = without_work(balance, scene); !none.empty()) return none;
-    const std::string in = jumps > 0 ? fmt::format(" in {} {}", jumps, jumps == 1 ? "jump" : "jumps") : "";
+    const std::string count = counted(static_cast<std::int64_t>(jumps.count), "jump");
+    std::string released = " " + energy(balance.released);
+    if (jumps.count > 0)
+        released = jumps.released < (1.0 - told_apart) * balance.released
+                       ? fmt::format("{} ({} in {})", released, energy(jumps.released), count)
+                       : fmt::format(" in {}{}", count, released);
     return fmt::format(
-        "{}energy balance: work {} = stored {} + dissipated {} + released{} {} + open {}; open is {} of the {} at most "
+        "{}energy balance: work {} = stored {} + dissipated {} + released{} + open {}; open is {} of the {} at most "
         "({} in {})",
         balance.open() <= noticeable ? "" : "warning: ", energy(balance.last_work), energy(balance.stored),
-        energy(balance.dissipated), in, energy(balance.released), energy(-balance.last_defect),
-        percent_text(balance.open()), balance.dissipated > 0.0 ? "dissipated energy" : "work", energy(-balance.defect),
+        energy(balance.dissipated), released, energy(-balance.last_defect), percent_text(balance.open()),
+        balance.dissipated > 0.0 ? "dissipated energy" : "work", energy(-balance.defect),
         instant_text(balance.step, balance.time));
 }
 

@@ -29,7 +29,11 @@ struct Balance {
 Balance balance_of(const Rows& rows, bool slides);
 std::string balance_line(const Balance& balance, const Scene& scene);
 // The same where work, stored, dissipated and released energy do not know of each other, because steps follow their
-// load. jumps: how many there were.
-std::string energies_line(const Balance& balance, std::size_t jumps, const Scene& scene);
+// load. What single pairs released that popped is told apart from what jumps did.
+struct JumpSum {
+    std::size_t count = 0;
+    double released = 0;  // by all of them
+};
+std::string energies_line(const Balance& balance, const JumpSum& jumps, const Scene& scene);
 
 }  // namespace cli

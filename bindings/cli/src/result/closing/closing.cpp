@@ -22,7 +22,8 @@ Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene,
     out.estimate_violated = violated_steps(rows, out.estimate_tolerance);
     out.estimate_inconclusive = inconclusive_steps(rows);
     out.front_unresolved = unresolved_steps(rows, model, scene);
-    out.pops = pops_of(rows);
+    out.waiting = waiting_of(rows, model, scene);
+    out.pops = pops_of(rows, any_softens(model, scene));
     out.buckled = buckled_steps(rows, scene);
     out.free_bodies = free_bodies_of(model, solver, scene);
     out.bulk = bulk;
@@ -33,7 +34,9 @@ std::vector<std::string> closing_lines(const Closing& closing, const Scene& scen
     const double work = closing.balance.work;  // whose unit all energies have
     std::vector<std::string> out = jump_lines(closing.jumps, scene, work);
     out.push_back(buckling_line(closing.buckled, scene, work));
-    out.push_back(closing.follows_load ? energies_line(closing.balance, closing.jumps.size(), scene)
+    JumpSum jumps{closing.jumps.size(), 0};
+    for (const Jump& jump : closing.jumps) jumps.released += jump.released;
+    out.push_back(closing.follows_load ? energies_line(closing.balance, jumps, scene)
                                        : balance_line(closing.balance, scene));
     out.push_back(estimate_line(closing.estimate_violated, closing.estimate_tolerance));
     out.push_back(inconclusive_line(closing.estimate_inconclusive));
@@ -43,9 +46,10 @@ std::vector<std::string> closing_lines(const Closing& closing, const Scene& scen
     for (std::string& line : search_lines(closing.search, scene, work)) out.push_back(std::move(line));
     for (std::string& line : free_body_lines(closing.free_bodies, scene)) out.push_back(std::move(line));
     out.push_back(unresolved_line(closing.front_unresolved));
+    if (closing.front_unresolved.empty()) out.push_back(waiting_line(closing.waiting, scene));
     out.push_back(pops_line(closing.pops));
     out.push_back(mesh_error_line(closing.bulk.mesh_error, scene));
-    out.push_back(rotation_line(closing.small, closing.bulk.rotation_max));
+    out.push_back(rotation_line(closing.small, closing.bulk));
     out.push_back(critical_line(closing.small));
     std::erase(out, "");
     return out;

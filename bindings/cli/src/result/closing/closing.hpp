@@ -34,6 +34,7 @@ struct Closing {
     std::vector<std::int64_t> estimate_violated, estimate_inconclusive;
     double estimate_tolerance = 0;
     std::vector<std::int64_t> front_unresolved;  // steps in which a crack grew with too few pairs in its process zone
+    Waiting waiting;
     Pops pops;
     std::vector<FreeBody> free_bodies;  // at the end
     BulkFacts bulk;                     // of the steps with fields

@@ -18,6 +18,8 @@ namespace {
 
 constexpr double resolving_pairs = 3.0;
 constexpr double told_pops = 0.01;  // of the work
+// Times the toughness: cracks that grow in resolved zones have an energy release rate of it within some per cent.
+constexpr double told_times = 1.25;
 constexpr double stiffest =
     100.0;  // times the least: a further digit of the layer's stiffness is not worth its rounding
 
@@ -63,6 +65,12 @@ bool energetic(const Model& model) {
 }
 
 }  // namespace
+
+bool any_softens(const Model& model, const Scene& scene) {
+    return std::any_of(model.interfaces.begin(), model.interfaces.end(), [&scene](const InterfaceData& data) {
+        return !data.bonded && !data.contact && has_onset(scene.laws[data.law].kind);
+    });
+}
 
 std::vector<std::string> process_zones(const Model& model) {
     std::vector<std::string> out;
@@ -158,10 +166,7 @@ std::vector<Advice> advice(const Model& model, const Scene& scene) {
 
 std::vector<std::int64_t> unresolved_steps(const Rows& rows, const Model& model, const Scene& scene) {
     std::vector<std::int64_t> out;
-    const auto softens = [&scene](const InterfaceData& data) {
-        return !data.bonded && !data.contact && has_onset(scene.laws[data.law].kind);
-    };
-    if (energetic(model) || std::none_of(model.interfaces.begin(), model.interfaces.end(), softens)) return out;
+    if (energetic(model) || !any_softens(model, scene)) return out;
     // In space the mean along the fronts; histories of earlier versions have that of one point alone.
     const bool means = !rows.empty() && rows.front().contains("process_zone_pairs_mean");
     const char* pairs = means ? "process_zone_pairs_mean" : "process_zone_pairs";
@@ -184,8 +189,38 @@ std::string unresolved_line(const std::vector<std::int64_t>& steps) {
         steps.size() == 1 ? "1 step" : fmt::format("{} steps", steps.size()), steps.front(), resolving_pairs);
 }
 
-Pops pops_of(const Rows& rows) {
+Waiting waiting_of(const Rows& rows, const Model& model, const Scene& scene) {
+    Waiting out;
+    if (energetic(model)) return out;
+    for (const InterfaceData& data : model.interfaces) {
+        if (data.bonded || data.contact) continue;
+        for (const auto& [key, value] : scene.laws[data.law].parameters)
+            if (key.ends_with("toughness")) out.toughness = std::max(out.toughness, value);
+    }
+    const bool means = !rows.empty() && rows.front().contains("energy_release_rate_mean");
+    for (const Row& row : rows) {
+        const double rate = number_of(row, means ? "energy_release_rate_mean" : "energy_release_rate");
+        if (!(out.toughness > 0) || !(rate > told_times * out.toughness) || !(rate > out.rate)) continue;
+        out.step = static_cast<std::int64_t>(number_of(row, "step"));
+        out.time = number_of(row, "time");
+        out.rate = rate;
+        out.times = rate / out.toughness;
+    }
+    return out;
+}
+
+std::string waiting_line(const Waiting& waiting, const Scene& scene) {
+    if (!(waiting.times > 0)) return "";
+    return fmt::format(
+        "warning: the energy release rate of a crack is up to {:.2g} times the largest toughness ({}; {}): its growth "
+        "waits until the spring of one pair holds the toughness, at a load that depends on the mesh and the stiffness: "
+        "give the law strengths that the mesh resolves, or take solution = \"energetic\"",
+        waiting.times, release_rate_text(waiting.rate, scene), instant_text(waiting.step, waiting.time));
+}
+
+Pops pops_of(const Rows& rows, bool softening) {
     Pops out;
+    out.softening = softening;
     for (const Row& row : rows) {
         out.pairs += static_cast<std::int64_t>(number_of(row, "pops"));
         out.released += number_of(row, "popped");
@@ -197,9 +232,10 @@ Pops pops_of(const Rows& rows) {
 std::string pops_line(const Pops& pops) {
     if (!(pops.released > told_pops * pops.work)) return "";
     return fmt::format(
-        "warning: {} popped one by one and released {} of the work: the mesh does not resolve the process zone (use "
-        "smaller cells or less strength, which `delam check` proposes)",
-        counted(pops.pairs, "pair"), percent_text(pops.released / pops.work));
+        "warning: {} popped one by one and released {} of the work: the mesh does not resolve the process zone ({})",
+        counted(pops.pairs, "pair"), percent_text(pops.released / pops.work),
+        pops.softening ? "use smaller cells or less strength, which `delam check` proposes"
+                       : "a law that does not soften has none: use one with strengths");
 }
 
 }  // namespace cli

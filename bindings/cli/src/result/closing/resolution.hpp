@@ -15,6 +15,8 @@ namespace cli {
 
 // One line for each interface with a softening law: predicted process zone and the pairs in it.
 std::vector<std::string> process_zones(const Model& model);
+// True if a law of an interface softens, so that cracks have process zones.
+bool any_softens(const Model& model, const Scene& scene);
 // Numbers for a law that are better than its own.
 struct Advice {
     std::string law;
@@ -28,12 +30,24 @@ std::vector<Advice> advice(const Model& model, const Scene& scene);
 // solutions and for scenes whose laws do not soften.
 std::vector<std::int64_t> unresolved_steps(const Rows& rows, const Model& model, const Scene& scene);
 std::string unresolved_line(const std::vector<std::int64_t>& steps);
+// The step in which the energy release rate of a crack exceeds the largest toughness of the scene most; times 0: it
+// does so in none by more than a quarter, the solution is energetic, or no law has a toughness.
+struct Waiting {
+    std::int64_t step = 0;
+    double time = 0, rate = 0, toughness = 0;
+    double times = 0;
+};
+Waiting waiting_of(const Rows& rows, const Model& model, const Scene& scene);
+// "" where no crack waits.
+std::string waiting_line(const Waiting& waiting, const Scene& scene);
 // Pairs that came apart one by one at one load, because the mesh does not resolve the process zone.
 struct Pops {
     std::int64_t pairs = 0;
     double released = 0, work = 0;
+    bool softening = true;
 };
-Pops pops_of(const Rows& rows);
+// softening: a law of the scene softens.
+Pops pops_of(const Rows& rows, bool softening);
 // "" where they released little.
 std::string pops_line(const Pops& pops);
 

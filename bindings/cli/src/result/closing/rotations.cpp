@@ -38,16 +38,17 @@ SmallRotations small_rotations_of(const Model& model, delam_solver* solver, cons
     return small;
 }
 
-std::string rotation_line(const SmallRotations& small, double largest) {
+std::string rotation_line(const SmallRotations& small, const BulkFacts& bulk) {
     if (!small.assumed) return "";
-    largest = std::max(largest, small.rotation);
-    const double of_strains = 0.5 * largest * largest;
-    const double error = small.error > of_strains ? small.error : of_strains;
+    const double largest = std::max(bulk.rotation_max, small.rotation), of_strains = 0.5 * largest * largest;
+    const bool earlier = bulk.rotations.error > std::max(of_strains, small.error > 0 ? small.error : 0.0);
+    const double error = earlier ? bulk.rotations.error : small.error > of_strains ? small.error : of_strains;
     if (!(largest > large_rotation) && !(error > told_share)) return "";
     return fmt::format(
-        "warning: cells rotate by up to {:.3g} rad: small rotations leave out about {} of the energy "
+        "warning: cells rotate by up to {:.3g} rad: small rotations leave out about {} of the energy{} "
         "(solver.kinematics = \"corotational\" does not)",
-        largest, percent_text(error));
+        largest, percent_text(error),
+        earlier ? fmt::format(" in {}", instant_text(bulk.rotations.step, bulk.rotations.time)) : "");
 }
 
 std::string critical_line(const SmallRotations& small) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "model/model.hpp"
+#include "result/fields/bulk_facts.hpp"
 
 namespace cli {
 
@@ -20,8 +21,8 @@ struct SmallRotations {
 // of_end: asks for the values of the state that the solver shows, too. Scenes that ask for kinematics = "linear" are
 // not asked whether their bodies buckle.
 SmallRotations small_rotations_of(const Model& model, delam_solver* solver, const Scene& scene, bool of_end);
-// largest: rotation of a cell in the steps with fields, rad. "" where rotations hardly matter.
-std::string rotation_line(const SmallRotations& small, double largest);
+// "" where rotations hardly matter.
+std::string rotation_line(const SmallRotations& small, const BulkFacts& bulk);
 // "" where no stresses come near to critical ones.
 std::string critical_line(const SmallRotations& small);
 

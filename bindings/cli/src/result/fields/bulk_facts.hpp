@@ -17,9 +17,17 @@ struct MeshError {
     double time = 0;
 };
 
+// What small rotations leave out (value rotation_error), where a collapse follows.
+struct RotationError {
+    double error = std::numeric_limits<double>::quiet_NaN();  // NaN: not known
+    std::int64_t step = 0;
+    double time = 0;
+};
+
 struct BulkFacts {
     double rotation_max = 0;  // rad, of all steps; 0 if none has displacements
     MeshError mesh_error;     // the largest of the steps in which it was estimated
+    RotationError rotations;  // the largest of those before a collapse
 };
 
 }  // namespace cli

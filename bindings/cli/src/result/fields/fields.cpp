@@ -148,7 +148,8 @@ std::string Fields::step_path(std::size_t step) const {
 
 std::string Fields::revised_path(std::size_t step) const { return step_path(step) + std::string(revised_suffix); }
 
-void Fields::write_step(const Model& model, delam_solver* solver, const Scene& scene, std::size_t step) {
+void Fields::write_step(const Model& model, delam_solver* solver, const Scene& scene, std::size_t step,
+                        bool collapses) {
     const bool again = is_there(step_path(step));
     const std::string path = again ? revised_path(step) : step_path(step);
     if (again) {
@@ -160,7 +161,7 @@ void Fields::write_step(const Model& model, delam_solver* solver, const Scene& s
         hashes_.erase(step);
     } else {
         const std::string bytes = step_bytes(model, solver, scene, static_cast<std::int64_t>(step), scene.times[step],
-                                             estimates_mesh_error(step));
+                                             {estimates_mesh_error(step), collapses && !scene.output.brief});
         Appender(path, 0).append(bytes);
         hashes_[step] = file_hash_of(bytes);
     }
@@ -264,6 +265,9 @@ BulkFacts Fields::assemble(const Model& model, const Scene& scene, std::size_t l
                                   h5::read_number_if_there(own.get(), "mesh_excess"), static_cast<std::int64_t>(step),
                                   scene.times[step]};
             if (error.away > facts.mesh_error.away || !std::isfinite(facts.mesh_error.away)) facts.mesh_error = error;
+            const double left_out = h5::read_number_if_there(own.get(), "rotation_error");
+            if (left_out > facts.rotations.error || !std::isfinite(facts.rotations.error))
+                facts.rotations = {left_out, static_cast<std::int64_t>(step), scene.times[step]};
             steps.push_back({name, scene.times[step]});
         }
         h5::require(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), path);

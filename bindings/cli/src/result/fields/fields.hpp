@@ -27,7 +27,9 @@ public:
     // Judges steps `first`, first + 1, .. by what they and the step before them show (Instants::judge).
     [[nodiscard]] bool judges() const { return instants_.judges(); }
     void judge(std::size_t step, const Sight& before, const Sight& now) { instants_.judge(step, before, now); }
-    void write_step(const Model& model, delam_solver* solver, const Scene& scene, std::size_t step);
+    // collapses: the step after it loses most of a reaction, so that small rotations are judged before they are gone.
+    void write_step(const Model& model, delam_solver* solver, const Scene& scene, std::size_t step,
+                    bool collapses = false);
     // Flushes the step files to disk, before a state that relies on them is written.
     void synchronise_steps();
     // Replaces the files of steps that were written again, and removes those of steps that are chosen no more: the

@@ -21,6 +21,12 @@ constexpr double noticeable_rise = 0.02;
 
 }  // namespace
 
+bool Sight::collapses_from(const Sight& before) const {
+    for (std::size_t p = 0; p < reactions.size(); ++p)
+        if (reactions[p] < 0.5 * before.reactions[p]) return true;
+    return false;
+}
+
 Instants::Instants(const Scene& scene) : judges_(!scene.output.every), last_(scene.step_count()) {
     const Output& output = scene.output;
     if (output.fields.empty()) {

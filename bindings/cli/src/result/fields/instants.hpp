@@ -22,6 +22,8 @@ struct Sight {
     double dissipated = 0;
     double jumps = 0;               // within the step
     std::vector<double> reactions;  // sizes, [patterns]
+    // True if a reaction falls by more than half.
+    [[nodiscard]] bool collapses_from(const Sight& before) const;
 };
 
 class Instants {

@@ -103,10 +103,8 @@ struct BulkSource {
     std::function<void(StepRows& step)> write;
     DisplacementOf displacement;
     std::function<double()> largest_rotation;
-    std::function<void(StepRows& step)> write_mesh_error;  // empty: it is not estimated
+    std::function<void(StepRows& step)> write_estimates;  // empty: there are none
 };
-
-constexpr const char* mesh_error_keys[] = {"mesh_error", "mesh_error_fronts", "mesh_excess"};
 
 // Everything that a step file says, in its order.
 StepRows rows_of_step(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t number, double time,
@@ -116,7 +114,7 @@ StepRows rows_of_step(const Model& model, delam_solver* solver, const Scene& sce
     step.number("time", time);
     source.write(step);
     step.number("rotation_max", bulk_fields(scene).empty() ? 0.0 : source.largest_rotation());
-    if (source.write_mesh_error && !bulk_fields(scene).empty()) source.write_mesh_error(step);
+    if (source.write_estimates && !bulk_fields(scene).empty()) source.write_estimates(step);
     for (std::size_t i = 0; i < model.interfaces.size(); ++i)
         write_interface(model, solver, scene, step, static_cast<std::int64_t>(i),
                         wants(scene, "displacement") ? source.displacement : DisplacementOf());
@@ -155,7 +153,7 @@ bool is_hdf5(std::string_view bytes) { return bytes.starts_with("\x89HDF"); }
 }  // namespace
 
 std::string step_bytes(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step, double time,
-                       bool estimate) {
+                       const StepEstimates& estimates) {
     Field displacement;
     BulkSource source;
     source.write = [&](StepRows& to) {
@@ -171,14 +169,16 @@ std::string step_bytes(const Model& model, delam_solver* solver, const Scene& sc
         call(model.context.get(), delam_solver_value(solver, "rotation_max", &largest), std::string("rotation_max"));
         return largest;
     };
-    const auto write_mesh_error = [&](StepRows& to) {
-        for (const char* key : mesh_error_keys) {
+    source.write_estimates = [&](StepRows& to) {
+        std::vector<const char*> keys;
+        if (estimates.mesh_error) keys = {"mesh_error", "mesh_error_fronts", "mesh_excess"};
+        if (estimates.rotation_error) keys.push_back("rotation_error");
+        for (const char* key : keys) {
             double part = 0;
             call(model.context.get(), delam_solver_value(solver, key, &part), std::string(key));
             to.number(key, part);
         }
     };
-    if (estimate) source.write_mesh_error = write_mesh_error;
     return rows_of_step(model, solver, scene, step, time, source).bytes();
 }
 

@@ -14,9 +14,13 @@
 
 namespace cli {
 
-// estimate: with the error of the mesh (bulk_facts.hpp), if the fields of nodes or cells are written.
+// The estimates that a step has, if the fields of nodes or cells are written (bulk_facts.hpp).
+struct StepEstimates {
+    bool mesh_error = false;
+    bool rotation_error = false;
+};
 std::string step_bytes(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step, double time,
-                       bool estimate);
+                       const StepEstimates& estimates);
 // The same as a file, by many processes. A file that is there is replaced, at once.
 void write_step_file(const std::string& path, const Model& model, delam_solver* solver, const Scene& scene,
                      std::int64_t step, double time, Bulk& bulk);

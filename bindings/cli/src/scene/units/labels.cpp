@@ -22,6 +22,10 @@ std::string length_text(double length, const Scene& scene) {
     return with_unit(length, Quantity::length, scene.units.names);
 }
 
+std::string release_rate_text(double rate, const Scene& scene) {
+    return with_unit(rate, Quantity::release_rate, scene.units.names);
+}
+
 namespace {
 
 // True if the factor of a pattern is the displacement itself, in one place at least.

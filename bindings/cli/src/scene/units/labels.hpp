@@ -15,6 +15,7 @@ std::string energy_text(double energy, const Scene& scene, double largest);
 // A part of an interface: "11.3 mm", in 3D "11.3 mm²".
 std::string extent_text(double extent, const Scene& scene);
 std::string length_text(double length, const Scene& scene);
+std::string release_rate_text(double rate, const Scene& scene);
 // Returns the factor of a pattern: "1.6 mm" where it is a displacement itself, else a number alone.
 std::string load_text(double load, const Scene& scene, std::size_t pattern);
 // Returns a reaction before and after a change, "27.6 to 16.5 N/mm", in 3D "27.6 to 16.5 N". That of dead forces is a
