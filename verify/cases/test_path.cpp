@@ -259,6 +259,49 @@ LOOP_TEST(a_ligament_snaps, 0, 2) {
     }
 }
 
+// Two bars (mm, N) that are pulled apart snap when the interface has its strength, 50 N/mm2 on 10 mm: the jump has this
+// load, however long the steps are.
+TEST(a_jump_comes_at_its_load) {
+    constexpr double width = 10.0, height = 20.0, stiffness = 1e5, strength = 50.0, young = 70e3;
+    Scene scene(2, {width}, {5}, {height, height}, {4, 4}, DELAM_QUAD4);
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, young, 0.0);
+    const double onset = 0.5 * strength * strength / stiffness;
+    scene.law(0, {stiffness, stiffness, onset, onset, 0.5, 0.5, 1.0});
+    const auto at = [&](double y) {
+        return cases::nodes_where(scene, -1, [y](const double* x) { return std::abs(x[1] - y) < 1e-6; });
+    };
+    scene.hold(at(0.0), {0.0, 1.0});
+    for (const double y : {0.0, 2.0 * height})
+        scene.hold(
+            cases::nodes_where(scene, -1, [y](const double* x) { return x[0] < 1e-6 && std::abs(x[1] - y) < 1e-6; }),
+            {1.0, 0.0});
+    const auto load = scene.pattern("pull", {0.0, 1.0}, {0.0, 0.06});
+    scene.drive(at(2.0 * height), {0.0, 1.0}, load, std::vector<double>(6, 1.0));
+    const double peak = strength * width, displacement = peak * (2.0 * height / young + 1.0 / stiffness) / width;
+    for (const int steps : {2, 3, 7, 37}) {
+        Solver solver(scene, 0.0);
+        double jumps = 0.0;
+        for (int k = 1; k <= steps && jumps == 0.0; ++k) {
+            solver.step(static_cast<double>(k) / steps);
+            jumps += solver.value("jumps");
+            solver.commit();
+        }
+        double before = 0.0, at_jump = 0.0, stored = 0.0, dissipated = 0.0, released = 0.0, debonded = 0.0,
+               load_before[1], load_after[1];
+        std::int64_t step = 0, interface = 0, first = 0, last = 0;
+        REQUIRE(scene, delam_solver_jump, solver.get(), 0, &step, &before, &at_jump, &stored, &dissipated, &released,
+                &debonded, &interface, &first, &last);
+        REQUIRE(scene, delam_solver_jump_reactions, solver.get(), 0, 1, load_before, load_after);
+        std::printf("%d steps: at %.6g of %.6g, load %.6g of %.6g, released %.6g\n", steps, 0.06 * at_jump,
+                    displacement, load_before[0], peak, released);
+        cases::expect_near(0.06 * at_jump, displacement, 4e-3, displacement, "displacement");
+        cases::expect_near(load_before[0], peak, 4e-3, peak, "load");
+        cases::expect_near(released, 0.5 * peak * displacement - 0.5 * width, 2e-2, released, "released");
+    }
+}
+
 // A front with few pairs in its process zone follows path_step, too: each time that parts are half as long, the
 // dissipated energy changes, and by less and less.
 LOOP_TEST(few_pairs_follow_path_step, 0, 2) {

@@ -25,7 +25,7 @@ namespace delam {
 namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double largest_share = 0.99;  // of the energy: larger estimates say no more
-// Of the energy of the bodies: less that rotations may add is not worth a factorisation.
+// Less than this share of the energy of the bodies, which rotations may add at most, is not worth a factorisation.
 constexpr double negligible = 1e-4;
 }  // namespace
 

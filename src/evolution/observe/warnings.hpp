@@ -36,7 +36,7 @@ private:
     const Problem& problem_;
     Monitor& monitor_;
     std::optional<std::vector<Symmetry>> symmetries_;  // that have not been lost
-    double least_ = 0.0;
+    double least_ = 0.0, most_ = 0.0;                  // energies: of less damage than counts, and the largest so far
     bool told_of_estimate_ = false;
     bool told_of_ledger_ = false;
     bool told_of_front_ = false;

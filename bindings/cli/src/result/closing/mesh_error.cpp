@@ -64,7 +64,7 @@ std::string mesh_error_line(const MeshError& error, const Scene& scene) {
         return fmt::format(
             "warning: mesh: at least half of the stiffness is that of the mesh, not of the bodies ({}): {}", where,
             remedy(error, scene));
-    return fmt::format("warning: mesh: error of the stored energy about {}, loads too high by about {} ({}){}: {}",
+    return fmt::format("warning: mesh: error of the stored energy about {}, bodies too stiff by about {} ({}){}: {}",
                        percent_text(error.away), percent_text(error.away / (1 - error.away)), where, fronts,
                        remedy(error, scene));
 }

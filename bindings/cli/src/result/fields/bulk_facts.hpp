@@ -17,7 +17,7 @@ struct MeshError {
     double time = 0;
 };
 
-// What small rotations leave out (value rotation_error), where a collapse follows.
+// The energy that small rotations leave out (value rotation_error), in a step before a collapse.
 struct RotationError {
     double error = std::numeric_limits<double>::quiet_NaN();  // NaN: not known
     std::int64_t step = 0;
