@@ -33,6 +33,30 @@ void set_layer_regions(Model& model, const Scene& scene, std::int64_t index, con
     }
 }
 
+}  // namespace
+
+Law law_of(const Model& model, const LawData& from) {
+    delam_context* context = model.context.get();
+    delam_law* handle = nullptr;
+    const std::int32_t status = delam_law_create(context, from.kind.c_str(), &handle);
+    Law law(handle);
+    call(context, status, from.place);
+    const auto at = [&](const std::string& key) { return from.places.at(key); };
+    for (const auto& [key, value] : from.texts)
+        call(context, delam_law_set_text(law.get(), key.c_str(), value.c_str()), at(key));
+    for (const auto& [key, value] : from.parameters)
+        call(context, delam_law_set(law.get(), key.c_str(), value), at(key));
+    if (!from.table_xi.empty())
+        call(context,
+             delam_law_set_table(law.get(), static_cast<std::int64_t>(from.table_xi.size()), from.table_xi.data(),
+                                 from.table_s.data()),
+             at("softening"));
+    call(context, delam_law_check(law.get()), from.place);
+    return law;
+}
+
+namespace {
+
 void set_interfaces(Model& model, const Scene& scene) {
     for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
         const InterfaceData& data = model.interfaces[i];
@@ -48,22 +72,7 @@ void set_interfaces(Model& model, const Scene& scene) {
             model.adheres.push_back(true);
             continue;
         }
-        const LawData& from = scene.laws[data.law];
-        delam_law* handle = nullptr;
-        const std::int32_t status = delam_law_create(model.context.get(), from.kind.c_str(), &handle);
-        const Law law(handle);
-        call(context, status, from.place);
-        const auto at = [&](const std::string& key) { return from.places.at(key); };
-        for (const auto& [key, value] : from.texts)
-            call(context, delam_law_set_text(law.get(), key.c_str(), value.c_str()), at(key));
-        for (const auto& [key, value] : from.parameters)
-            call(context, delam_law_set(law.get(), key.c_str(), value), at(key));
-        if (!from.table_xi.empty())
-            call(context,
-                 delam_law_set_table(law.get(), static_cast<std::int64_t>(from.table_xi.size()), from.table_xi.data(),
-                                     from.table_s.data()),
-                 at("softening"));
-        call(context, delam_law_check(law.get()), from.place);
+        const Law law = law_of(model, scene.laws[data.law]);
         call(context, delam_problem_set_law(model.problem.get(), index, law.get()), data.place);
         scene.mesh ? set_mesh_regions(model, scene, index, data) : set_layer_regions(model, scene, index, data);
         double spacing = 0;

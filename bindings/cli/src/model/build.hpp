@@ -6,6 +6,8 @@
 
 namespace cli {
 
+// Returns a law of a scene, checked.
+Law law_of(const Model& model, const LawData& from);
 // Returns a complete and checked problem. Errors name the place in the scene.
 Model build(Context context, const Scene& scene);
 // Factors the operator; the state is the initial one. converged: whether its displacement step converged.

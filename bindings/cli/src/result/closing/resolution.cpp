@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "model/build.hpp"
 #include "model/call.hpp"
 #include "scene/units/labels.hpp"
 #include "text/say.hpp"
@@ -192,10 +193,17 @@ std::string unresolved_line(const std::vector<std::int64_t>& steps) {
 Waiting waiting_of(const Rows& rows, const Model& model, const Scene& scene) {
     Waiting out;
     if (energetic(model)) return out;
+    constexpr int parts = 20;  // of the modes between opening and shear, of which one may be the toughest
+    std::vector<double> mixities(parts + 1);
+    for (std::size_t k = 0; k < mixities.size(); ++k) mixities[k] = static_cast<double>(k) / parts;
     for (const InterfaceData& data : model.interfaces) {
         if (data.bonded || data.contact) continue;
-        for (const auto& [key, value] : scene.laws[data.law].parameters)
-            if (key.ends_with("toughness")) out.toughness = std::max(out.toughness, value);
+        std::vector<double> onset(mixities.size()), total(mixities.size());
+        call(model.context.get(),
+             delam_law_toughness(law_of(model, scene.laws[data.law]).get(), static_cast<std::int64_t>(mixities.size()),
+                                 mixities.data(), onset.data(), total.data()),
+             std::string("toughness"));
+        out.toughness = std::max(out.toughness, *std::max_element(total.begin(), total.end()));
     }
     const bool means = !rows.empty() && rows.front().contains("energy_release_rate_mean");
     for (const Row& row : rows) {
