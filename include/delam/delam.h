@@ -1109,10 +1109,10 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   buckling_time             -        time at which the first of these states began to buckle
  *   buckling_released         F L      part of `released` that is set free where the bodies snap through
  *   rotation_error            -        estimated relative error of strains that are linear in the displacements: half
- *                                      the square of the largest rotation, or, if larger, the share of the energy of the
- *                                      bodies that rotations would add, by the work of the stresses on them and by
- *                                      stretching. It is 0 with `kinematics = corotational`, and may cost a factorisation
- *                                      of all bodies.
+ *                                      the square of the largest rotation, or a larger share of the energy that
+ *                                      rotations would add. They add it by the work of the stresses on them and by
+ *                                      stretching. It is 0 with `kinematics = corotational`, and may cost a
+ *                                      factorisation of all bodies.
  *   buckling_ratio            -        stresses over those at which the bodies buckle, at the present adhesion and
  *                                      contact. Above 1 they would buckle with `kinematics = corotational`. Faces that
  *                                      touch without a force are open. It is NaN where a part is free to move, in an

@@ -47,7 +47,7 @@ void Warnings::judge_ledger(const State& after, const Options& options) {
     }
     // Each mixity rule closes the ledger in one of the two splits of the interfaces' energy.
     const double open = std::min(std::abs(ledger.defect()), std::abs(ledger.defect_linear()));
-    most_ = std::max(most_, scale);  // what is left after unloading is rounding of what was there
+    most_ = std::max(most_, scale);  // After unloading, rounding of the largest energy is left.
     if (!told_of_ledger_ && open > std::max(noticeable * most_, least_)) {
         monitor_.log(
             1, text(where, "stored, dissipated and released energy differ from the work of the loads by ", open / most_,

@@ -206,7 +206,8 @@ Waiting waiting_of(const Rows& rows, const Model& model, const Scene& scene) {
         out.toughness = std::max(out.toughness, *std::max_element(total.begin(), total.end()));
     }
     const bool means = !rows.empty() && rows.front().contains("energy_release_rate_mean");
-    for (const Row& row : rows) {
+    for (std::size_t i = 1; i < rows.size(); ++i) {  // the initial state is not minimised
+        const Row& row = rows[i];
         const double rate = number_of(row, means ? "energy_release_rate_mean" : "energy_release_rate");
         if (!(out.toughness > 0) || !(rate > told_times * out.toughness) || !(rate > out.rate)) continue;
         out.step = static_cast<std::int64_t>(number_of(row, "step"));
