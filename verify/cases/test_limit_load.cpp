@@ -42,6 +42,13 @@ Scene peel(int d, int which, bool nose) {
     return scene;
 }
 
+// Returns the time up to which a message says that the state holds; 0: it does not say so.
+double known_limit(const Scene& scene) {
+    const std::string message = delam_context_message(scene.context()), words = "holds up to time ";
+    const std::size_t at = message.find(words);
+    return at == std::string::npos ? 0.0 : std::stod(message.substr(at + words.size()));
+}
+
 LOOP_TEST(peeled_off, 0, 12) {
     const int d = loop % 2 == 0 ? 2 : 3;
     const Scene scene = peel(d, loop / 2 % 3, loop / 6 == 1);
@@ -61,6 +68,12 @@ LOOP_TEST(peeled_off, 0, 12) {
                                              std::to_string(reached) + ": " + delam_context_message(scene.context()));
     cases::expect(std::string(delam_context_message(scene.context())).find("dead force") != std::string::npos,
                   "the message names the dead force");
+    const double limit = known_limit(scene);
+    cases::expect(limit >= solver.value("time") && limit < static_cast<double>(reached + 1) / steps,
+                  "the limit load is told: " + std::to_string(limit));
+    Solver at_once(scene, 0.0);
+    cases::expect(at_once.advance(1.0) == DELAM_LIMIT, "one step ends there as well");
+    cases::expect_near(known_limit(scene), limit, 1e-2, limit, "at the same load");
     cases::expect(solver.value("time") == static_cast<double>(reached) / steps, "the state before is kept");
     cases::expect(solver.value("front") == damaged, "and so is its damage");
     cases::expect(reached >= 1, "a small load is borne");

@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "delam/delam.h"
 #include "evolution/minimise/proportional_loads.hpp"
 #include "evolution/path/advance.hpp"
 #include "evolution/step/growth_events.hpp"
@@ -125,6 +127,7 @@ private:
     void advance();
     double wanted(const Advance& advance, bool one_mode) const;
     Trial attempt(const Plan& plan, bool along_path);
+    std::optional<Trial> attempt_below_limit(Plan& plan, bool along_path);
     bool goes_on(const Trial& trial) const;
     bool short_enough(const Trial& trial) const;
     bool pops(const Trial& trial, const Plan& plan) const;
@@ -214,6 +217,26 @@ Trial LoadPath::attempt(const Plan& plan, bool along_path) {
     return trial;
 }
 
+// Returns nothing where a part has no equilibrium, because dead loads exceed what adhesion, supports and contact hold,
+// and sets a shorter one, until the limit load is known.
+std::optional<Trial> LoadPath::attempt_below_limit(Plan& plan, bool along_path) {
+    try {
+        return attempt(plan, along_path);
+    } catch (const Error& error) {
+        if (error.status() != DELAM_LIMIT) throw;
+        const double from = std::max(plan.start, at_.time), left = plan.reach - from;
+        const bool known = !(left > plan.shortest) || left <= located * std::max(std::abs(plan.reach), std::abs(from));
+        if (!known || (plan.start > at_.time && left > 0.0)) {
+            plan.reach = known ? plan.start : from + length_of_part(0.5 * left);
+            return {};
+        }
+        std::string factors;
+        for (const double factor : at_.theta) factors += text(factors.empty() ? " " : ", ", factor);
+        fail(DELAM_LIMIT, error.what(), "; the state before holds up to time ", at_.time, ", where the factors are",
+             factors);
+    }
+}
+
 // One mode grows on as in the part before.
 bool LoadPath::goes_on(const Trial& trial) const {
     return trial.one_mode && growth_.rate > 0.0 &&
@@ -287,7 +310,12 @@ void LoadPath::advance() {
     bool along_path = popping_;
     for (int refused = 0, unsettled = 0;; ++refused) {
         plan.reach = std::max(plan.reach, std::nextafter(at_.time, end_));
-        Trial trial = attempt(plan, along_path);
+        std::optional<Trial> below = attempt_below_limit(plan, along_path);
+        if (!below) {
+            ++history_.refused_steps;
+            continue;
+        }
+        Trial trial = std::move(*below);
         if (!trial.damages && !trial.settled && !along_path) trial = attempt(plan, along_path = true);
         if (!trial.damages) {
             if (growth_.part_time > 0.0) growth_.part_time = std::max(growth_.part_time, 4.0 * trial.own);
