@@ -161,6 +161,8 @@ private:
             require_outside(card);
         } else if (word == "END PART" || word == "END INSTANCE") {
             if (open_ == &model_.root) throw SceneFailure(card.place, "nothing of the kind was begun");
+            if (placing_ != nullptr) end_instance();
+            placing_ = nullptr;
             open_ = &model_.root;
         } else if (passed_over.contains(word)) {
             passed_.insert("*" + word);
@@ -200,7 +202,6 @@ private:
         open_ = part.get();
     }
 
-    // The first data line moves the part's nodes and the second rotates them: two points of the axis, degrees.
     void begin_instance(const InpCard& card) {
         require_outside(card);
         card.only({"NAME", "PART"});
@@ -232,6 +233,15 @@ private:
         }
         std::for_each(instance.sections.begin(), instance.sections.end(), renew);
         std::for_each(instance.cohesive_sections.begin(), instance.cohesive_sections.end(), renew);
+        open_ = &instance;
+        placing_ = &card;
+    }
+
+    // The first data line moves the nodes of the part and those that the instance itself has, which are in the system
+    // of the part too. The second rotates them: two points of the axis, degrees.
+    void end_instance() {
+        Part& instance = *open_;
+        const InpCard& card = *placing_;
         if (card.lines.size() > 2) throw SceneFailure(card.lines[2].place, "at most two lines are expected");
         if (!card.lines.empty()) {
             const std::vector<double> by = numbers(card.lines[0], 3);
@@ -249,7 +259,6 @@ private:
             instance.origin = rotated(instance.origin, a, b, turn[6] * std::numbers::pi / 180);
             for (Node& node : instance.nodes) node.at = rotated(node.at, a, b, turn[6] * std::numbers::pi / 180);
         }
-        open_ = &instance;
     }
 
     // Counts the copies before they are made: one line may copy a part of any size.
@@ -428,6 +437,7 @@ private:
 
     Model& model_;
     Part* open_;
+    const InpCard* placing_ = nullptr;  // the *INSTANCE that is open
     bool in_step_ = false;
     std::int64_t copies_ = 0;
     std::int64_t made_ = 0;  // nodes and elements of *NGEN and *ELGEN
