@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "deck/abaqus/left_out.hpp"
+#include "deck/abaqus/keywords.hpp"
 #include "deck/deck_bodies.hpp"
 #include "deck/deck_laws.hpp"
 #include "mesh/mesh_file.hpp"
@@ -414,8 +414,9 @@ private:
     // The least Young's modulus of the materials of bodies.
     [[nodiscard]] double softest() const {
         double out = std::numeric_limits<double>::infinity();
-        for (const MaterialCards& m : deck_.materials) {
-            if (m.constants.empty() || m.elastic == "TRACTION") continue;
+        for (const Section& section : deck_.sections) {
+            if (!section.thickness.empty()) continue;
+            const MaterialCards& m = named(deck_.materials, section.material, "material", section.place);
             const std::size_t moduli = m.elastic == "ISOTROPIC" ? 1 : m.elastic == "LAMINA" ? 2 : 3;
             // D1111, D2222 and D3333 stand at 0, 2 and 5.
             const bool stiffnesses = m.elastic == "ORTHOTROPIC";
