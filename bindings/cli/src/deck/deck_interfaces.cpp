@@ -15,6 +15,7 @@
 #include "deck/deck_bodies.hpp"
 #include "deck/deck_laws.hpp"
 #include "mesh/mesh_file.hpp"
+#include "mesh/near_bodies.hpp"
 #include "text/toml_text.hpp"
 
 namespace cli::abaqus {
@@ -79,10 +80,15 @@ public:
                                 body(pair.b)));
         }
         if (deck_.general_contact) {
-            out += "[contact]\ngeneral = true\n\n";
+            const double gap = general_gap();
+            out += "[contact]\ngeneral = true\n";
+            if (gap > 0) out += fmt::format("gap = {}\n", toml_number(gap));
+            out += "\n";
+            const std::string near = gap > 0 ? fmt::format("are up to {:.4g} apart", gap) : "lie on each other";
             deck_.changed.push_back(
-                "*CONTACT: faces that lie on each other at the start are in contact, those that meet later are left "
-                "out");
+                fmt::format("*CONTACT: faces that {} at the start are in contact, those that meet "
+                            "later are left out",
+                            near));
         }
         return out;
     }
@@ -95,6 +101,20 @@ private:
     Held* find(std::int32_t a, std::int32_t b) {
         const auto found = held_by_.find(std::minmax(a, b));
         return found == held_by_.end() ? nullptr : &held_[found->second];
+    }
+
+    // Returns the distance at which every body that is held by nothing meets another, up to an edge of a cell.
+    [[nodiscard]] double general_gap() const {
+        std::vector<bool> held(mesh_.body_names.size(), false);
+        for (const Held& each : held_)
+            held[static_cast<std::size_t>(each.a)] = held[static_cast<std::size_t>(each.b)] = true;
+        double out = 0;
+        for (std::size_t body = 0; body < held.size(); ++body) {
+            if (held[body] || !neighbours_[body].empty()) continue;
+            const double distance = nearest_body(mesh_, static_cast<std::int32_t>(body)).distance;
+            if (distance <= edge_) out = std::max(out, allowance * distance);
+        }
+        return out;
     }
 
     // Bodies that share some nodes are bonded there, whatever they have between their doubled nodes elsewhere.

@@ -112,7 +112,6 @@ constexpr Row rows[] = {
     {"CONCRETE DAMAGED PLASTICITY", Use::no_law},
     {"CONCRETE TENSION DAMAGE", Use::no_law},
     {"CONCRETE TENSION STIFFENING", Use::no_law},
-    {"CREEP", Use::no_law},
     {"CRUSHABLE FOAM", Use::no_law},
     {"CRUSHABLE FOAM HARDENING", Use::no_law},
     {"CYCLIC HARDENING", Use::no_law},
@@ -278,7 +277,7 @@ Keyword keyword_from(const Row& row) {
     return out;
 }
 
-// By name without blanks.
+// Returns the keywords by their names without blanks.
 const std::map<std::string, Keyword, std::less<>>& all() {
     static const auto made = [] {
         std::map<std::string, Keyword, std::less<>> out;

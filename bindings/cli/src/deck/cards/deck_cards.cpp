@@ -147,7 +147,7 @@ private:
         return true;
     }
 
-    // What is refused where it is used, and was not.
+    // Lists what would be refused if something used it.
     void list_refused() {
         const auto list = [&](const char* what, const std::string& name, const std::optional<SceneFailure>& refusal) {
             if (!refusal) return;
