@@ -203,16 +203,16 @@ code, _, error = delam("check", write(hole, "ring.toml", os.path.dirname(path)))
 expect("leaves the walls of single bodies without contact" in error and "faces itself" in error, f"told: {error.strip()}")
 # General contact of a deck takes in bodies that are apart; one that takes in no face of a body says so.
 distance = 2e-4
-near = apart(bar(2, 3, "UP"), distance).replace("*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nSUP, SLOW\n",
+near = apart(bar(3, 4, "UP"), distance).replace("*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nSUP, SLOW\n",
                                                "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n")
 place = folder()
-code, scene, error = delam("import", write(near, "near.inp", place))
-expect(code == 0 and "[contact]\ngeneral = true\ngap = 0.0002002\n" in scene and "up to 0.0002002 apart" in error,
-       f"general contact of a deck with a gap: {error} {scene[-600:]}")
-_, _, error = delam("check", write(scene.replace("gap = 0.0002002\n", ""), "without.toml", place))
+code, given, error = delam("import", write(near, "near.inp", place))
+expect(code == 0 and "[contact]\ngeneral = true\ngap = 0.0002002\n" in given and "up to 0.0002002 apart" in error,
+       f"general contact of a deck with a gap: {error} {given[-600:]}")
+_, _, error = delam("check", write(given.replace("gap = 0.0002002\n", ""), "without.toml", place))
 expect('takes in no face of body "LOW" and of 1 other' in error and '0.0002 away from "UP"' in error and "0.000202 would" in error,
        f"bodies that general contact leaves alone: {error}")
-_, _, error = delam("check", write(scene, "with.toml", place))
+_, _, error = delam("check", write(given, "with.toml", place))
 expect("takes in no face" not in error, f"and not where it takes them in: {error}")
 
 for wrong, words in (("general = 1", "general.*true or false"), ("gap = 1", "is for general = true"),
