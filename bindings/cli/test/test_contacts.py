@@ -207,9 +207,9 @@ near = apart(bar(3, 4, "UP"), distance).replace("*CONTACT PAIR, INTERACTION=I, T
                                                "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n")
 place = folder()
 code, given, error = delam("import", write(near, "near.inp", place))
-expect(code == 0 and "[contact]\ngeneral = true\ngap = 0.0002002\n" in given and "up to 0.0002002 apart" in error,
+expect(code == 0 and re.search(r"general = true\ngap = 0.000200[12]", given) and "up to 0.0002002 apart" in error,
        f"general contact of a deck with a gap: {error} {given[-600:]}")
-_, _, error = delam("check", write(given.replace("gap = 0.0002002\n", ""), "without.toml", place))
+_, _, error = delam("check", write(re.sub(r"gap = .*\n", "", given), "without.toml", place))
 expect('takes in no face of body "LOW" and of 1 other' in error and '0.0002 away from "UP"' in error and "0.000202 would" in error,
        f"bodies that general contact leaves alone: {error}")
 _, _, error = delam("check", write(given, "with.toml", place))
