@@ -53,6 +53,12 @@ for old, new, pattern in (
 _, said = imported(changed(PLAIN, ("*Cohesive Section", "*Section Controls, name=EC, max degradation=0.9\n*Cohesive Section")))
 expect("MAX DEGRADATION=0.9: damage goes to 1" in said, f"{said}")
 
+# Pairs at the edge of cohesive elements have half a cell beyond it, which is told where it is much.
+for cells, much in ((4, True), (60, False)):
+    code, said, error = delam("check", write(decks.abaqus(decks.Beam(nx=cells, ny=0, nz=1)), "deck.inp"))
+    expect(code == 0 and ('the faces of "Cohesive" cover 0.03, the pairs that adhere 0.0375' in error) == much and
+           ("the pairs that adhere" in error) == much, f"{cells} cells: {error.strip()}")
+
 # Interactions.
 imported(PAIR)
 for old, new, pattern in (
