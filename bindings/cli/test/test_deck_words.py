@@ -84,6 +84,7 @@ for card, name in (("*Material, name=Steel\n*Elastic\n2e5, 0.3\n*Plastic\n300., 
 refused(changed(PLAIN, ("*Elastic, type=TRACTION", "*Plastic\n300., 0.\n*Elastic, type=TRACTION")), "plasticity would change")
 refused(changed(PLAIN, ("*Step", "*Amplitude, name=Wave, definition=PERIODIC\n1, 1., 0., 0.\n*Step"),
                 ("*Boundary\nTop", "*Boundary, amplitude=Wave\nTop")), r"deck\.inp:\d+: \*AMPLITUDE: DEFINITION=PERIODIC is not")
+refused(changed(PAIR, ("E-below, S", "E-below, SPOS"), ), r"deck\.inp:\d+: \*SURFACE: \"SPOS\d\": a side, S1")
 _, said = imported(changed(PLAIN, ("*Output", "*Integrated output section, name=I\n*Incrementation output\n*Energy file\n*Filter,"
                                    " name=F\n*Output"), ("*Elastic", "*Depvar\n1,\n*User output variables\n1,\n*Elastic")))
 expect(all(f"left out  *{word}" in said for word in ("DEPVAR", "ENERGY FILE", "FILTER", "INCREMENTATION OUTPUT")), f"{said}")
