@@ -88,4 +88,17 @@ refused(changed(PAIR, ("E-below, S", "E-below, SPOS"), ), r"deck\.inp:\d+: \*SUR
 _, said = imported(changed(PLAIN, ("*Output", "*Integrated output section, name=I\n*Incrementation output\n*Energy file\n*Filter,"
                                    " name=F\n*Output"), ("*Elastic", "*Depvar\n1,\n*User output variables\n1,\n*Elastic")))
 expect(all(f"left out  *{word}" in said for word in ("DEPVAR", "ENERGY FILE", "FILTER", "INCREMENTATION OUTPUT")), f"{said}")
+# A lap joint with a thick adhesive: its nodes are paired, also where both sheets go on beyond it.
+lap = "*Node\n" + "".join(f"{1 + i + 5 * j}, {0.5 * i + (j > 1)}, {j - 0.9 * (j > 1)}\n" for j in range(4) for i in range(5))
+for name, first in (("Low", 0), ("Up", 10)):
+    lap += f"*Element, type=CPE4I, elset={name}\n" + "".join(
+        f"{first + i}, {first + i}, {first + i + 1}, {first + i + 6}, {first + i + 5}\n" for i in range(1, 5))
+lap += "*Element, type=COH2D4, elset=Cohesive\n21, 8, 9, 12, 11\n22, 9, 10, 13, 12\n*Nset, nset=Clamp\n1, 6\n*Nset, nset=Top\n15, 20\n"
+lap += "".join(f"*Solid Section, elset={name}, material=Ply\n" for name in ("Low", "Up"))
+lap += "*Cohesive Section, elset=Cohesive, material=Resin, response=TRACTION SEPARATION\n" + decks.PLY + decks.resin()
+lap += "*Step\n*Static\n*Boundary\nClamp, 1, 2\nTop, 1, 1, 0.01\nTop, 2\n*End Step\n"
+scene, said = imported(lap)
+expect("the nodes of its two sides are paired" in said and "tolerance = 0.2002" in scene and "projected" not in scene, f"{said}")
+code, said, error = delam("check", write(lap, "deck.inp"))
+expect(code == 0 and '"Low-Up", 3 pairs' in said, f"a lap joint: {error.strip()}")
 finish()

@@ -28,6 +28,9 @@ constexpr double allowance = 1.001;
 // manual says; half and twice of it change the compliance of an interface by a tenth of a cell's (ctest -R
 // cli_deck_keywords).
 constexpr double penalty_factor = 10;
+// Largest distance at which nodes match, in shortest edges: less than half, at which a node may have two others as
+// near.
+constexpr double most_tolerance = 0.49;
 
 struct Held {
     std::int32_t a = 0, b = 0;
@@ -36,7 +39,8 @@ struct Held {
     double gap = 0;   // between the faces; 0: they coincide
     bool matching = true;
     Place place;
-    bool open = false;  // surfaces, whose distance counts
+    double tolerance = 0;  // at which nodes match, over the shortest edge; 0: that of the scene
+    bool open = false;     // surfaces, whose distance counts
     double adjust = 0;
     bool bonded = false;  // tied
     bool shared = false;  // bonded where the bodies share nodes
@@ -130,12 +134,13 @@ private:
                             body(pair.a), body(pair.b)));
         }
         if (held->bonded) return;
-        if (!held->matching || pair.doubled == 0)
+        if (!held->matching || held->tolerance > 0 || pair.doubled == 0)
             throw SceneFailure(
                 held->place,
                 fmt::format("{} and {} share the nodes of {} sides, where they would be bonded, and {}: {}",
                             body(pair.a), body(pair.b), pair.shared,
-                            held->matching ? "no other sides of them coincide" : "have faces that are apart elsewhere",
+                            held->matching && !(held->tolerance > 0) ? "no other sides of them coincide"
+                                                                     : "have faces that are apart elsewhere",
                             sections_of_one_side));
         held->shared = true;
     }
@@ -252,13 +257,18 @@ private:
                                "ORIENTATION with two stiffnesses in shear is not imported: give shear_axis");
         for (const auto& [bodies, gap] : gaps) {
             const bool apart = gap > 1e-6 * edge_;
+            // The nodes of both sides belong together, and no others are as near.
+            const bool paired = apart && !loose && gap < most_tolerance * edge_;
             if (apart)
-                deck_.changed.push_back(
-                    fmt::format("\"{}\" is {:.6g} thick: the faces beside it are projected upon each "
-                                "other, and it has no volume",
-                                set.name, gap));
-            add({bodies.first, bodies.second, law, set.faces, apart ? gap * allowance : 0.0, !apart && !loose,
-                 section.place});
+                deck_.changed.push_back(fmt::format("\"{}\" is {:.6g} thick: {}, and it has no volume", set.name, gap,
+                                                    paired ? "the nodes of its two sides are paired"
+                                                           : "the faces beside it are projected upon each other"));
+            Held held{bodies.first, bodies.second, law, set.faces, 0.0, (paired || !apart) && !loose, section.place};
+            if (paired)
+                held.tolerance = allowance * gap / edge_;
+            else if (apart)
+                held.gap = allowance * gap;
+            add(held);
         }
         if (loose)
             deck_.changed.push_back(
@@ -487,6 +497,7 @@ private:
         if (sheared_.contains(held.law)) out += "shear_axis = [1, 0, 0]  # x projected: axis 1 of the deck\n";
         if (held.shared) out += "shared = \"bonded\"\n";
         if (!held.matching) out += "projected = true\n";
+        if (held.tolerance > 0) out += fmt::format("tolerance = {}\n", toml_number(held.tolerance));
         if (held.gap > 0) out += fmt::format("gap = {}\n", toml_number(held.gap));
         if (held.open && !held.law.empty()) out += "initial_gap = \"open\"\n";
         if (held.open && held.adjust > 0) out += fmt::format("adjust = {}\n", toml_number(held.adjust));
