@@ -3,6 +3,7 @@
 import csv
 import math
 import os
+import re
 
 from support import delam, expect, expect_error, finish, folder, write
 
@@ -186,7 +187,8 @@ path = write(head + "*SOLID SECTION, ELSET=ALL, MATERIAL=M\n1.\n*MATERIAL" + mid
 code, text, error = delam("import", path)
 expect(code == 0, f"import: {error.strip()}")
 for reach, force in ((0, 0.0), (2.1e-4, 0.15)):
-    walls = write(text.replace("general = true", f"general = true\ngap = {reach}"), "walls.toml", os.path.dirname(path))
+    walls = re.sub(r"general = true\n(gap = .*\n)?", f"general = true\ngap = {reach}\n", text)
+    walls = write(walls, "walls.toml", os.path.dirname(path))
     expect(math.isclose(abs(pressed(walls)), force, rel_tol=1e-9, abs_tol=1e-12), f"walls within {reach}")
 # A hole that is narrower than the gap faces itself: it stays without contact, which is told.
 places = [(r * math.cos(k * math.pi / 12), r * math.sin(k * math.pi / 12)) for r in (1.0, 2.0) for k in range(24)]
@@ -199,6 +201,20 @@ hole = ('schema = 1\n[mesh]\nfile = "ring.inp"\n[[materials]]\nname = "m"\nyoung
         '[[supports]]\nbody = "RING"\nfix = ["x", "y"]\n[time]\nend = 1.0\nsteps = 1\n')
 code, _, error = delam("check", write(hole, "ring.toml", os.path.dirname(path)))
 expect("leaves the walls of single bodies without contact" in error and "faces itself" in error, f"told: {error.strip()}")
+# General contact of a deck takes in bodies that are apart; one that takes in no face of a body says so.
+distance = 2e-4
+near = apart(bar(3, 4, "UP"), distance).replace("*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nSUP, SLOW\n",
+                                               "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n")
+place = folder()
+code, given, error = delam("import", write(near, "near.inp", place))
+expect(code == 0 and re.search(r"general = true\ngap = 0.000200[12]", given) and "up to 0.0002002 apart" in error,
+       f"general contact of a deck with a gap: {error} {given[-600:]}")
+_, _, error = delam("check", write(re.sub(r"gap = .*\n", "", given), "without.toml", place))
+expect('takes in no face of body "LOW" and of 1 other' in error and '0.0002 away from "UP"' in error and "0.000202 would" in error,
+       f"bodies that general contact leaves alone: {error}")
+_, _, error = delam("check", write(given, "with.toml", place))
+expect("takes in no face" not in error, f"and not where it takes them in: {error}")
+
 for wrong, words in (("general = 1", "general.*true or false"), ("gap = 1", "is for general = true"),
                      ("general = true\ngap = -1", "gap.*>= 0")):
     with open(scene, encoding="utf-8") as file:

@@ -95,6 +95,12 @@ def history(text):
         return [float(line["reaction"]) for line in csv.DictReader(file)], said + error
 
 
+def independent(text):
+    """The same deck with the mesh within the instances, whose data lines move it all the same."""
+    begin, end = text.index("*Node\n"), text.index("*End Part")
+    return (text[:begin] + text[end:].replace("*End Instance", text[begin:end] + "*End Instance"))
+
+
 def line_of(text, card, which=0):
     """The line of the data behind a card."""
     return 2 + [k for k, line in enumerate(text.splitlines()) if line == card][which]
@@ -110,6 +116,7 @@ for what, text in (
                                     steps=step(HELD + "Half, 2, 2, 0.03\nTop, 2, 2, 0.03\n"))),
         ("general contact", deck(PROPERTY, step(before=GENERAL))),
         ("an equation", deck(assembly=POINT, steps=step(HELD + "RP, 2, 2, 0.03\n"))),
+        ("independent instances", independent(deck())),
         ("the ends of lines of DOS, comments between data", deck().replace("1000., 0.3\n", "** moduli\n1000., 0.3\n").replace(
             "Top, 1, 1\n", "**\nTop, 1, 1\n").replace("\n", "\r\n"))):
     found, said = history(text)

@@ -11,10 +11,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "deck/abaqus/left_out.hpp"
+#include "deck/abaqus/keywords.hpp"
 #include "deck/deck_bodies.hpp"
 #include "deck/deck_laws.hpp"
 #include "mesh/mesh_file.hpp"
+#include "mesh/near_bodies.hpp"
 #include "text/toml_text.hpp"
 
 namespace cli::abaqus {
@@ -27,6 +28,9 @@ constexpr double allowance = 1.001;
 // manual says; half and twice of it change the compliance of an interface by a tenth of a cell's (ctest -R
 // cli_deck_keywords).
 constexpr double penalty_factor = 10;
+// Largest distance at which nodes match, in shortest edges: less than half, at which a node may have two others as
+// near.
+constexpr double most_tolerance = 0.49;
 
 struct Held {
     std::int32_t a = 0, b = 0;
@@ -35,7 +39,8 @@ struct Held {
     double gap = 0;   // between the faces; 0: they coincide
     bool matching = true;
     Place place;
-    bool open = false;  // surfaces, whose distance counts
+    double tolerance = 0;  // at which nodes match, over the shortest edge; 0: that of the scene
+    bool open = false;     // surfaces, whose distance counts
     double adjust = 0;
     bool bonded = false;  // tied
     bool shared = false;  // bonded where the bodies share nodes
@@ -79,10 +84,15 @@ public:
                                 body(pair.b)));
         }
         if (deck_.general_contact) {
-            out += "[contact]\ngeneral = true\n\n";
+            const double gap = general_gap();
+            out += "[contact]\ngeneral = true\n";
+            if (gap > 0) out += fmt::format("gap = {}\n", toml_number(gap));
+            out += "\n";
+            const std::string near = gap > 0 ? fmt::format("are up to {:.4g} apart", gap) : "lie on each other";
             deck_.changed.push_back(
-                "*CONTACT: faces that lie on each other at the start are in contact, those that meet later are left "
-                "out");
+                fmt::format("*CONTACT: faces that {} at the start are in contact, those that meet "
+                            "later are left out",
+                            near));
         }
         return out;
     }
@@ -95,6 +105,20 @@ private:
     Held* find(std::int32_t a, std::int32_t b) {
         const auto found = held_by_.find(std::minmax(a, b));
         return found == held_by_.end() ? nullptr : &held_[found->second];
+    }
+
+    // Returns the distance at which every body that is held by nothing meets another, up to an edge of a cell.
+    [[nodiscard]] double general_gap() const {
+        std::vector<bool> held(mesh_.body_names.size(), false);
+        for (const Held& each : held_)
+            held[static_cast<std::size_t>(each.a)] = held[static_cast<std::size_t>(each.b)] = true;
+        double out = 0;
+        for (std::size_t body = 0; body < held.size(); ++body) {
+            if (held[body] || !neighbours_[body].empty()) continue;
+            const double distance = nearest_body(mesh_, static_cast<std::int32_t>(body)).distance;
+            if (distance <= edge_) out = std::max(out, allowance * distance);
+        }
+        return out;
     }
 
     // Bodies that share some nodes are bonded there, whatever they have between their doubled nodes elsewhere.
@@ -110,12 +134,13 @@ private:
                             body(pair.a), body(pair.b)));
         }
         if (held->bonded) return;
-        if (!held->matching || pair.doubled == 0)
+        if (!held->matching || held->tolerance > 0 || pair.doubled == 0)
             throw SceneFailure(
                 held->place,
                 fmt::format("{} and {} share the nodes of {} sides, where they would be bonded, and {}: {}",
                             body(pair.a), body(pair.b), pair.shared,
-                            held->matching ? "no other sides of them coincide" : "have faces that are apart elsewhere",
+                            held->matching && !(held->tolerance > 0) ? "no other sides of them coincide"
+                                                                     : "have faces that are apart elsewhere",
                             sections_of_one_side));
         held->shared = true;
     }
@@ -232,13 +257,18 @@ private:
                                "ORIENTATION with two stiffnesses in shear is not imported: give shear_axis");
         for (const auto& [bodies, gap] : gaps) {
             const bool apart = gap > 1e-6 * edge_;
+            // The nodes of both sides belong together, and no others are as near.
+            const bool paired = apart && !loose && gap < most_tolerance * edge_;
             if (apart)
-                deck_.changed.push_back(
-                    fmt::format("\"{}\" is {:.6g} thick: the faces beside it are projected upon each "
-                                "other, and it has no volume",
-                                set.name, gap));
-            add({bodies.first, bodies.second, law, set.faces, apart ? gap * allowance : 0.0, !apart && !loose,
-                 section.place});
+                deck_.changed.push_back(fmt::format("\"{}\" is {:.6g} thick: {}, and it has no volume", set.name, gap,
+                                                    paired ? "the nodes of its two sides are paired"
+                                                           : "the faces beside it are projected upon each other"));
+            Held held{bodies.first, bodies.second, law, set.faces, 0.0, (paired || !apart) && !loose, section.place};
+            if (paired)
+                held.tolerance = allowance * gap / edge_;
+            else if (apart)
+                held.gap = allowance * gap;
+            add(held);
         }
         if (loose)
             deck_.changed.push_back(
@@ -414,8 +444,9 @@ private:
     // The least Young's modulus of the materials of bodies.
     [[nodiscard]] double softest() const {
         double out = std::numeric_limits<double>::infinity();
-        for (const MaterialCards& m : deck_.materials) {
-            if (m.constants.empty() || m.elastic == "TRACTION") continue;
+        for (const Section& section : deck_.sections) {
+            if (!section.thickness.empty()) continue;
+            const MaterialCards& m = named(deck_.materials, section.material, "material", section.place);
             const std::size_t moduli = m.elastic == "ISOTROPIC" ? 1 : m.elastic == "LAMINA" ? 2 : 3;
             // D1111, D2222 and D3333 stand at 0, 2 and 5.
             const bool stiffnesses = m.elastic == "ORTHOTROPIC";
@@ -466,6 +497,7 @@ private:
         if (sheared_.contains(held.law)) out += "shear_axis = [1, 0, 0]  # x projected: axis 1 of the deck\n";
         if (held.shared) out += "shared = \"bonded\"\n";
         if (!held.matching) out += "projected = true\n";
+        if (held.tolerance > 0) out += fmt::format("tolerance = {}\n", toml_number(held.tolerance));
         if (held.gap > 0) out += fmt::format("gap = {}\n", toml_number(held.gap));
         if (held.open && !held.law.empty()) out += "initial_gap = \"open\"\n";
         if (held.open && held.adjust > 0) out += fmt::format("adjust = {}\n", toml_number(held.adjust));

@@ -124,8 +124,10 @@ private:
     const Orientation& orientation_of(const Section& section) const {
         for (const std::string& part : {section.part, std::string()})
             if (const auto found = deck_.orientations.find({part, upper(section.orientation)});
-                found != deck_.orientations.end())
+                found != deck_.orientations.end()) {
+                if (found->second.refusal) throw SceneFailure(*found->second.refusal);
                 return found->second;
+            }
         return named(Catalogue<Orientation>(), section.orientation, "orientation", section.place);
     }
 
@@ -288,6 +290,11 @@ ImportedScene import_deck(const std::string& deck_path, const std::string& mesh_
         if (!note.starts_with("ignored: ") && !note.starts_with("cohesive: ")) out.changed.push_back(note);
     out.changed.insert(out.changed.end(), deck.changed.begin(), deck.changed.end());
     out.left_out = deck.left_out;
+    for (const abaqus::Part* scope : model.scopes())
+        for (const auto& [key, surface] : scope->surfaces)
+            if (surface.refusal)
+                out.left_out.push_back(fmt::format("surface \"{}\", which nothing uses ({})", surface.name,
+                                                   surface.refusal->place().text()));
     std::int64_t cells = 0, held = 0;
     for (const CellBlock& block : mesh.blocks) cells += static_cast<std::int64_t>(block.bodies.size());
     for (const CohesiveSet& set : mesh.cohesive) held += static_cast<std::int64_t>(set.lower.size());

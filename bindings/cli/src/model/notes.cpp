@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "mesh/cell_shape.hpp"
+#include "mesh/near_bodies.hpp"
 #include "model/call.hpp"
 #include "scene/units/magnitudes.hpp"
 #include "text/say.hpp"
@@ -92,12 +93,33 @@ void cohesive_warning(const Model& model, const Scene& scene, std::vector<std::s
                                   counted(left, "cohesive element")));
 }
 
+// Bodies that general contact leaves alone pass through the others.
+void contact_warning(const Model& model, const Scene& scene, std::vector<std::string>& out) {
+    if (!scene.general_contact || scene.layers.size() < 2) return;
+    std::vector<bool> held(scene.layers.size(), false);
+    for (const InterfaceData& data : model.interfaces) held[data.lower] = held[data.upper] = true;
+    const auto free = std::find(held.begin(), held.end(), false);
+    if (free == held.end()) return;
+    const auto body = static_cast<std::size_t>(free - held.begin());
+    const NearBody near = nearest_body(*scene.mesh, static_cast<std::int32_t>(body));
+    if (near.body < 0) return;
+    const auto others = std::count(free + 1, held.end(), false);
+    out.push_back(fmt::format(
+        "general contact takes in no face of body \"{}\"{}, so that it passes through other bodies: its nearest node "
+        "is "
+        "{:.4g} away from \"{}\", and contact.gap is {:.4g}; {:.3g} would take it in",
+        scene.layers[body].name, others > 0 ? fmt::format(" and of {} other{}", others, others > 1 ? "s" : "") : "",
+        near.distance, scene.layers[static_cast<std::size_t>(near.body)].name, scene.general_contact->gap,
+        1.01 * near.distance));
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const Model& model, const Scene& scene) {
     std::vector<std::string> out = model.said;
     interface_warnings(model, scene, out);
     cohesive_warning(model, scene, out);
+    contact_warning(model, scene, out);
     if (std::string units = units_found(scene).warning; !units.empty()) out.push_back(std::move(units));
     for (const Prescription& data : scene.prescriptions) patch_warnings(scene, data.where, out);
     for (const DeadForce& data : scene.forces) patch_warnings(scene, data.where, out);

@@ -15,65 +15,18 @@
 
 #include "deck/abaqus/abaqus_elements.hpp"
 #include "deck/abaqus/generated.hpp"
-#include "deck/abaqus/left_out.hpp"
+#include "deck/abaqus/keywords.hpp"
 #include "text/wording.hpp"
 
 namespace cli::abaqus {
 
 namespace {
 
-// Materials, loads, steps and output requests, which the scene file defines instead. A *STEP is ignored up to its end.
-const std::set<std::string> passed_over{"AMPLITUDE",
-                                        "BOUNDARY",
-                                        "CLOAD",
-                                        "COHESIVE BEHAVIOR",
-                                        "CONTACT",
-                                        "CONTACT PAIR",
-                                        "CONTACT PROPERTY ASSIGNMENT",
-                                        "CONTACT FORMULATION",
-                                        "CONTACT INCLUSIONS",
-                                        "CONTACT INITIALIZATION ASSIGNMENT",
-                                        "CONTACT INITIALIZATION DATA",
-                                        "CONTACT EXCLUSIONS",
-                                        "CONDUCTIVITY",
-                                        "COUPLING",
-                                        "DAMAGE EVOLUTION",
-                                        "DAMAGE INITIATION",
-                                        "DAMAGE STABILIZATION",
-                                        "DAMPING",
-                                        "DENSITY",
-                                        "DEPVAR",
-                                        "DISTRIBUTING",
-                                        "DLOAD",
-                                        "DSLOAD",
-                                        "ELASTIC",
-                                        "ELEMENT OUTPUT",
-                                        "EQUATION",
-                                        "EXPANSION",
-                                        "FIELD",
-                                        "FRICTION",
-                                        "HOURGLASS STIFFNESS",
-                                        "INITIAL CONDITIONS",
-                                        "KINEMATIC",
-                                        "MPC",
-                                        "MATERIAL",
-                                        "NODE OUTPUT",
-                                        "OUTPUT",
-                                        "PHYSICAL CONSTANTS",
-                                        "PLASTIC",
-                                        "PREPRINT",
-                                        "RESTART",
-                                        "RIGID BODY",
-                                        "SECTION CONTROLS",
-                                        "SPECIFIC HEAT",
-                                        "SURFACE BEHAVIOR",
-                                        "SURFACE INTERACTION",
-                                        "SURFACE PROPERTY ASSIGNMENT",
-                                        "TEMPERATURE",
-                                        "TRANSFORM",
-                                        "TIME POINTS",
-                                        "USER DEFINED FIELD",
-                                        "USER MATERIAL"};
+// Materials, loads, steps and output requests are for the scene file, which defines them instead.
+bool passed_over(const std::string& keyword) {
+    const Keyword* known = keyword_of(keyword);
+    return known != nullptr && known->use != Use::never;
+}
 
 // Rotation of a point by an angle about the axis from a to b (Rodrigues).
 std::array<double, 3> rotated(const std::array<double, 3>& point, const std::array<double, 3>& a,
@@ -161,8 +114,10 @@ private:
             require_outside(card);
         } else if (word == "END PART" || word == "END INSTANCE") {
             if (open_ == &model_.root) throw SceneFailure(card.place, "nothing of the kind was begun");
+            if (placing_ != nullptr) end_instance();
+            placing_ = nullptr;
             open_ = &model_.root;
-        } else if (passed_over.contains(word)) {
+        } else if (passed_over(word)) {
             passed_.insert("*" + word);
         } else {
             throw SceneFailure(card.place, instead_of_keyword(word));
@@ -192,7 +147,7 @@ private:
 
     void begin_part(const InpCard& card) {
         require_outside(card);
-        card.only({"NAME"});
+        card.check();
         auto& part = model_.parts[upper(card.required("NAME"))];
         if (part) throw SceneFailure(card.place, "there is another part \"" + part->name + "\"");
         part = std::make_unique<Part>();
@@ -200,10 +155,9 @@ private:
         open_ = part.get();
     }
 
-    // The first data line moves the part's nodes and the second rotates them: two points of the axis, degrees.
     void begin_instance(const InpCard& card) {
         require_outside(card);
-        card.only({"NAME", "PART"});
+        card.check();
         const auto from = model_.parts.find(upper(card.required("PART")));
         if (from == model_.parts.end())
             throw SceneFailure(card.place, "part \"" + card.required("PART") + "\" is not there");
@@ -232,6 +186,15 @@ private:
         }
         std::for_each(instance.sections.begin(), instance.sections.end(), renew);
         std::for_each(instance.cohesive_sections.begin(), instance.cohesive_sections.end(), renew);
+        open_ = &instance;
+        placing_ = &card;
+    }
+
+    // The first data line moves the nodes of the part and those that the instance itself has, which are in the system
+    // of the part too. The second rotates them: two points of the axis, degrees.
+    void end_instance() {
+        Part& instance = *open_;
+        const InpCard& card = *placing_;
         if (card.lines.size() > 2) throw SceneFailure(card.lines[2].place, "at most two lines are expected");
         if (!card.lines.empty()) {
             const std::vector<double> by = numbers(card.lines[0], 3);
@@ -249,7 +212,6 @@ private:
             instance.origin = rotated(instance.origin, a, b, turn[6] * std::numbers::pi / 180);
             for (Node& node : instance.nodes) node.at = rotated(node.at, a, b, turn[6] * std::numbers::pi / 180);
         }
-        open_ = &instance;
     }
 
     // Counts the copies before they are made: one line may copy a part of any size.
@@ -275,14 +237,13 @@ private:
     }
 
     void take_nodes(const InpCard& card) {
-        card.only({"NSET", "SYSTEM"});
-        const std::string system = card.has("SYSTEM") ? upper(card.required("SYSTEM")) : "R";
-        if (system != "R" && system != "C" && system != "S") card.refuse("SYSTEM", system, "R, C or S");
+        card.check();
+        const std::string system = card.has("SYSTEM") ? card.required("SYSTEM") : "R";
         for (const InpLine& line : card.lines) {
             if (line.fields.size() < 3 || line.fields.size() > 4)
                 throw SceneFailure(line.place, fmt::format("{} entries: a number and 2 or 3 coordinates are expected",
                                                            line.fields.size()));
-            Node node{inp_whole(line.fields[0], line.place), {}};
+            Node node{label(line.fields[0], "node", line.place), {}};
             for (std::size_t i = 1; i < line.fields.size(); ++i)
                 node.at[i - 1] = inp_number(line.fields[i], line.place);
             if (system != "R") node.at = rectangular(node.at, system == "S");
@@ -295,8 +256,15 @@ private:
         }
     }
 
+    // Returns the number of a node or an element.
+    static std::int64_t label(const std::string& field, const char* of, const Place& place) {
+        const std::int64_t number = inp_whole(field, place);
+        if (number < 1) throw SceneFailure(place, fmt::format("{} {}: its number must be > 0", of, number));
+        return number;
+    }
+
     void take_elements(const InpCard& card) {
-        card.only({"TYPE", "ELSET"});
+        card.check();
         const ElementType& type = type_named(card);
         const std::size_t per_element = type.nodes();
         if (!type.note.empty()) set_note(fmt::format("{}: {}", type.name, type.note));
@@ -311,7 +279,7 @@ private:
             if (fields.size() != per_element + 1)
                 throw SceneFailure(place, fmt::format("{} nodes: {} has {}", fields.empty() ? 0 : fields.size() - 1,
                                                       type.name, per_element));
-            Element element{inp_whole(fields[0], place), &type, {}, card.parameter("ELSET"), place};
+            Element element{label(fields[0], "element", place), &type, {}, card.parameter("ELSET"), place};
             for (std::size_t k = 1; k < fields.size(); ++k) element.nodes.push_back(inp_whole(fields[k], place));
             for (std::size_t k = 0; k < type.order.size(); ++k)
                 element.nodes[k] = inp_whole(fields[1 + type.order[k]], place);
@@ -334,8 +302,7 @@ private:
     }
 
     void take_set(const InpCard& card, std::map<std::string, Set>& sets, const std::string& key) {
-        card.only(key == "NSET" ? std::vector<std::string>{key, "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED", "ELSET"}
-                                : std::vector<std::string>{key, "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED"});
+        card.check();
         Set& set = set_named(sets, card.required(key), card.place);
         set.unsorted = set.unsorted || card.has("UNSORTED");
         const Part* scope = card.has("INSTANCE") ? model_.instance_named(card.required("INSTANCE"), card.place) : open_;
@@ -367,16 +334,25 @@ private:
     }
 
     void take_surface(const InpCard& card) {
-        card.only({"NAME", "TYPE", "INTERNAL"});
         const std::string name = card.required("NAME");
-        const std::string type = card.has("TYPE") ? upper(card.required("TYPE")) : "ELEMENT";
-        if (type != "ELEMENT" && type != "NODE")
-            throw SceneFailure(card.place, "TYPE=" + type + " is not read: ELEMENT and NODE are");
         Surface& surface = open_->surfaces[upper(name)];
         if (!surface.name.empty()) throw SceneFailure(card.place, "there is another surface \"" + name + "\"");
         surface.name = name;
         surface.place = card.place;
-        surface.of_nodes = type == "NODE";
+        surface.of_nodes = card.parameter("TYPE") == "NODE";
+        // Many decks have surfaces that nothing uses.
+        try {
+            take_sides(card, surface);
+        } catch (const SceneFailure& failure) {
+            surface.sides.clear();
+            surface.nodes.clear();
+            surface.refusal = failure;
+            set_note(fmt::format("ignored: surface \"{}\", unless something uses it ({})", name, failure.what()));
+        }
+    }
+
+    void take_sides(const InpCard& card, Surface& surface) const {
+        card.check();
         for (const InpLine& line : card.lines) {
             if (surface.of_nodes) {
                 surface.nodes.push_back({open_, line.fields.at(0), line.place});
@@ -392,7 +368,7 @@ private:
     }
 
     void take_tie(const InpCard& card) {
-        card.only({"NAME", "ADJUST", "POSITION TOLERANCE", "TYPE", "NO ROTATION", "NO THICKNESS", "CONSTRAINT RATIO"});
+        card.check();
         Tie tie;
         if (card.has("POSITION TOLERANCE")) tie.tolerance = inp_number(card.required("POSITION TOLERANCE"), card.place);
         if (!(tie.tolerance >= 0))
@@ -428,6 +404,7 @@ private:
 
     Model& model_;
     Part* open_;
+    const InpCard* placing_ = nullptr;  // the *INSTANCE that is open
     bool in_step_ = false;
     std::int64_t copies_ = 0;
     std::int64_t made_ = 0;  // nodes and elements of *NGEN and *ELGEN

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "deck/abaqus/left_out.hpp"
+#include "deck/abaqus/keywords.hpp"
 #include "delam/delam.h"
 #include "mesh/cell_shape.hpp"
 #include "text/wording.hpp"

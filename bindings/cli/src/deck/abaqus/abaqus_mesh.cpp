@@ -102,6 +102,17 @@ private:
         }
     }
 
+    void require_shells(const Entry& section) const {
+        std::set<ElementAt> members;
+        model_.collect_elements(section, members);
+        for (const ElementAt& at : members)
+            if (at.type().name != "SC8R")
+                throw SceneFailure(section.place,
+                                   fmt::format("element {} is a {}: shell sections of SC8R are imported; "
+                                               "give *SOLID SECTION",
+                                               at.element().id, at.type().name));
+    }
+
     // The name of a set in the scene, in its first spelling.
     std::string body_name(const Entry& raw) const {
         const Entry entry = model_.resolved_scope(raw);
@@ -116,7 +127,10 @@ private:
         }
         if (wanted.empty())
             for (const Part* scope : model_.scopes())
-                for (const Entry& section : scope->sections) assign_body(body_name(section), section);
+                for (std::size_t i = 0; i < scope->sections.size(); ++i) {
+                    assign_body(body_name(scope->sections[i]), scope->sections[i]);
+                    if (scope->section_cards[i]->keyword == "SHELL SECTION") require_shells(scope->sections[i]);
+                }
         if (mesh_.body_names.empty()) {
             for (const Part* scope : model_.scopes())
                 for (const Element& element : scope->elements)
@@ -200,6 +214,7 @@ private:
                 if (!nodes.empty()) mesh_.node_sets[full_name(*scope, set.name)].assign(nodes.begin(), nodes.end());
             }
             for (const auto& [key, surface] : scope->surfaces) {
+                if (surface.refusal) continue;
                 const std::string name = surface_set_name(*scope, surface), own = full_name(*scope, surface.name);
                 if (name != own)
                     mesh_.notes.push_back(
@@ -273,6 +288,7 @@ private:
         const auto surface = entry.scope->surfaces.find(upper(entry.text));
         if (surface == entry.scope->surfaces.end())
             throw SceneFailure(raw.place, "surface \"" + raw.text + "\" is not there");
+        surface->second.require_sound();
         return surface_set_name(*entry.scope, surface->second);
     }
 

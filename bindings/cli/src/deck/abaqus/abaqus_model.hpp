@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -67,6 +68,11 @@ struct Surface {
     std::vector<Entry> nodes;  // of TYPE=NODE
     bool of_nodes = false;
     Place place;
+    std::optional<SceneFailure> refusal{};  // why it cannot be used
+
+    void require_sound() const {
+        if (refusal) throw SceneFailure(*refusal);
+    }
 };
 
 // *TIE: the nodes of one surface move with the other, onto which they are projected.

@@ -39,9 +39,8 @@ class Distribution {
 public:
     Distribution(const Model& model, const Named& of) : name_(of.card->required("NAME")), place_(of.card->place) {
         const InpCard& card = *of.card;
-        card.only({"NAME", "LOCATION", "TABLE"});
-        if (const std::string location = upper(card.required("LOCATION")); location != "ELEMENT")
-            card.refuse("LOCATION", location, "ELEMENT");
+        card.check();
+        (void)card.required("LOCATION");
         require_points(model, of);
         for (std::size_t i = 0; i < card.lines.size(); ++i) {
             std::vector<std::string> fields = card.lines[i].fields;
@@ -159,9 +158,9 @@ private:
 
     // Other orientations may be of kinds that nobody reads: a scene gives axes of its own.
     static bool may_differ(const InpCard& card) {
-        if (card.has("SYSTEM") && upper(card.parameter("SYSTEM")) == "CYLINDRICAL") return true;
-        const bool here = !card.has("DEFINITION") || upper(card.parameter("DEFINITION")) == "COORDINATES";
-        const bool rectangular = !card.has("SYSTEM") || upper(card.parameter("SYSTEM")) == "RECTANGULAR";
+        if (card.has("SYSTEM") && card.parameter("SYSTEM") == "CYLINDRICAL") return true;
+        const bool here = !card.has("DEFINITION") || card.parameter("DEFINITION") == "COORDINATES";
+        const bool rectangular = !card.has("SYSTEM") || card.parameter("SYSTEM") == "RECTANGULAR";
         return here && rectangular && !card.lines.empty() && orientation_of(card).of_each_element();
     }
 

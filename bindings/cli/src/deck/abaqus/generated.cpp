@@ -46,7 +46,7 @@ const Node& node_of(const Part& part, std::int64_t id, const Place& place) {
 }  // namespace
 
 std::int64_t generate_nodes(const InpCard& card, Part& part, std::int64_t most) {
-    card.only({"NSET"});
+    card.check();
     std::int64_t made = 0;
     for (const InpLine& line : card.lines) {
         if (line.fields.size() < 2 || line.fields.size() > 3)
@@ -73,7 +73,7 @@ std::int64_t generate_nodes(const InpCard& card, Part& part, std::int64_t most) 
 }
 
 std::int64_t generate_elements(const InpCard& card, Part& part, std::int64_t most) {
-    card.only({"ELSET"});
+    card.check();
     std::int64_t made = 0;
     for (const InpLine& line : card.lines) {
         const std::int64_t first = number_at(line, 0, 0);

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "deck/abaqus/inp_parameters.hpp"
+#include "deck/abaqus/keywords.hpp"
 #include "file/input_file.hpp"
 #include "mesh/mesh_file.hpp"
 #include "text/wording.hpp"
@@ -67,15 +68,23 @@ void parse_keyword_line(const std::string& line, InpCard& card) {
             keyword += ' ';
     card.keyword = upper(trimmed(keyword));
     if (card.keyword.empty()) throw SceneFailure(card.place, "a keyword is expected after *");
+    const abaqus::Keyword* keyword_meant = abaqus::keyword_of(card.keyword);
+    if (keyword_meant != nullptr) card.keyword = keyword_meant->name;
     std::set<std::string> known;
     for (std::size_t i = 1; i < fields.size(); ++i) {
         if (fields[i].empty()) continue;
         const std::size_t equals = fields[i].find('=');
-        const std::string name = upper(trimmed(fields[i].substr(0, equals)));
+        std::string name = upper(trimmed(fields[i].substr(0, equals)));
+        std::string value = equals == std::string::npos ? "" : unquoted(trimmed(fields[i].substr(equals + 1)));
+        const abaqus::Parameter* parameter =
+            keyword_meant == nullptr ? nullptr : abaqus::parameter_of(*keyword_meant, name);
+        if (parameter != nullptr) {
+            name = parameter->name;
+            if (!parameter->values.empty()) value = abaqus::value_of(*parameter, upper(value));
+        }
         if (equals != std::string::npos && !known.insert(name).second)
             throw SceneFailure(card.place, fmt::format("the parameter {:.40} is given twice", name));
-        card.parameters.emplace_back(
-            name, equals == std::string::npos ? "" : unquoted(trimmed(fields[i].substr(equals + 1))));
+        card.parameters.emplace_back(std::move(name), std::move(value));
     }
 }
 
@@ -166,7 +175,7 @@ private:
 
     // The lines of the included file replace the card; its name is relative to the including file.
     void include(const InpCard& card, const std::string& path, std::size_t depth) {
-        card.only({"INPUT"});
+        card.check();
         if (depth == deepest_include)
             throw SceneFailure(card.place, fmt::format("files include each other more than {} deep", deepest_include));
         const std::filesystem::path beside = std::filesystem::path(path).parent_path();
@@ -223,11 +232,22 @@ void InpCard::refuse(const std::string& name, const std::string& value, const st
     throw SceneFailure(place, fmt::format("{}={} is not imported: {} is", name, value, known));
 }
 
-void InpCard::only(const std::vector<std::string>& names) const {
-    for (const auto& [key, value] : parameters)
-        if (std::find(names.begin(), names.end(), key) == names.end())
-            throw SceneFailure(place, fmt::format("the parameter {} is not read{}; these are: {}", key,
-                                                  suggestion(key, names), listing(names)));
+void InpCard::check() const {
+    const abaqus::Keyword* known = abaqus::keyword_of(keyword);
+    if (known == nullptr) return;
+    std::vector<std::string> names;
+    for (const abaqus::Parameter& each : known->parameters) names.push_back(each.name);
+    for (const auto& [name, value] : parameters) {
+        const auto at = std::find(names.begin(), names.end(), name);
+        if (at == names.end())
+            throw SceneFailure(place, fmt::format("the parameter {} is not read{}; {}", name, suggestion(name, names),
+                                                  names.empty() ? "none is" : "these are: " + listing(names)));
+        const std::vector<std::string>& values = known->parameters[static_cast<std::size_t>(at - names.begin())].values;
+        if (values.empty() || std::find(values.begin(), values.end(), value) != values.end()) continue;
+        std::string all = values.front();
+        for (std::size_t i = 1; i < values.size(); ++i) all += (i + 1 < values.size() ? ", " : " or ") + values[i];
+        refuse(name, value, all);
+    }
 }
 
 std::vector<InpCard> read_cards(const std::string& path, const Place& place, std::string& bytes) {

@@ -21,8 +21,10 @@ struct InpLine {
 };
 
 struct InpCard {
-    std::string keyword;                                          // upper case, single blanks: "SOLID SECTION"
-    std::vector<std::pair<std::string, std::string>> parameters;  // names in upper case; "" where there is no value
+    std::string keyword;  // upper case, single blanks: "SOLID SECTION"; in full if it is known
+    // Names in upper case, in full if they are known, and so the values of those that have a few; "" where there is no
+    // value.
+    std::vector<std::pair<std::string, std::string>> parameters;
     std::vector<InpLine> lines;
     Place place;
 
@@ -35,8 +37,8 @@ struct InpCard {
     [[nodiscard]] std::vector<double> row() const;
     // Refuses a value of a parameter.
     [[noreturn]] void refuse(const std::string& name, const std::string& value, const std::string& known) const;
-    // Refuses any parameter that is not listed.
-    void only(const std::vector<std::string>& names) const;
+    // Refuses any parameter that is not known, and any value of those whose values are known.
+    void check() const;
 };
 
 // "**" begins a comment; keywords and parameters are case-insensitive; a keyword line that ends with a comma continues

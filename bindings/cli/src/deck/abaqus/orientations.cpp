@@ -85,15 +85,11 @@ Axes Orientation::axes(const std::vector<double>& of_element, const Vector& cent
 }
 
 Orientation orientation_of(const InpCard& card) {
-    card.only({"NAME", "DEFINITION", "SYSTEM"});
-    if (card.has("DEFINITION") && upper(card.required("DEFINITION")) != "COORDINATES")
-        card.refuse("DEFINITION", card.required("DEFINITION"), "COORDINATES");
-    const std::string system = card.has("SYSTEM") ? upper(card.required("SYSTEM")) : "RECTANGULAR";
-    if (system != "RECTANGULAR" && system != "CYLINDRICAL") card.refuse("SYSTEM", system, "RECTANGULAR or CYLINDRICAL");
+    card.check();
     Orientation out;
     out.name = card.required("NAME");
     out.place = card.place;
-    out.cylindrical = system == "CYLINDRICAL";
+    out.cylindrical = card.parameter("SYSTEM") == "CYLINDRICAL";
     const InpLine& first = card.first_line();
     if (!first.fields.empty() && is_name(first.fields[0])) {
         out.distribution = first.fields[0];

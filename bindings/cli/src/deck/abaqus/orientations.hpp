@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct Orientation {
     int about = 0;               // 0: not said
     double angle = 0;            // degrees
     Place place;
+    std::optional<SceneFailure> refusal{};  // why it cannot be used
 
     // True if elements of one section may have different axes.
     [[nodiscard]] bool of_each_element() const { return cylindrical || !distribution.empty(); }

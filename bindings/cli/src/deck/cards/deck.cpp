@@ -45,7 +45,9 @@ std::string node_set_name(const Model& model, const Entry& raw) {
 std::string surface_name(const Model& model, const Entry& raw) {
     const Entry entry = model.resolved_scope(raw);
     const auto surface = entry.scope->surfaces.find(upper(entry.text));
-    return surface == entry.scope->surfaces.end() ? "" : surface_set_name(*entry.scope, surface->second);
+    if (surface == entry.scope->surfaces.end()) return "";
+    surface->second.require_sound();
+    return surface_set_name(*entry.scope, surface->second);
 }
 
 CohesiveElement cohesive_element(const Model& model, const std::vector<std::int64_t>& lower) {

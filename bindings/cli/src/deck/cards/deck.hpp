@@ -73,6 +73,7 @@ struct MaterialCards {
     Numbers expansion{};  // one value, or one for each axis; empty: none
     DamageCards damage{};
     Place place;
+    std::optional<SceneFailure> refusal{};  // why it cannot be used
 };
 
 struct Section {
@@ -85,7 +86,7 @@ struct Section {
     double value = 1;         // the specified thickness
     double width = 1;         // out of the plane
     bool shell = false;
-    std::string part{};  // in which it and its orientation stand
+    std::string part{};  // the part or instance in which it and its orientation stand
     Place place;         // of the card, by which the mesh knows it
 };
 
@@ -97,6 +98,7 @@ struct InteractionCards {
     std::string eligibility;
     DamageCards damage;
     Place place;
+    std::optional<SceneFailure> refusal{};
 };
 
 struct ContactPair {
@@ -114,6 +116,7 @@ struct Amplitude {
     bool smooth = false;
     std::vector<std::pair<double, double>> points;
     Place place;
+    std::optional<SceneFailure> refusal{};
 };
 
 // A term of *EQUATION.
@@ -165,6 +168,7 @@ struct Step {
     bool new_boundaries = false, new_forces = false, new_distributed = false;  // those before end
     Place renewed{};                                                           // *BOUNDARY, OP=NEW
     bool riks = false;
+    bool procedure = false;  // *STATIC or *DYNAMIC has come
     std::vector<LoadLine> boundaries, forces, temperatures;
     Place place;
 };
@@ -230,10 +234,13 @@ inline void say_once(std::vector<std::string>& texts, const std::string& text) {
     if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
 }
 
-// The object of this name, whatever its case. Throws SceneFailure at `place`.
+// The object of this name, whatever its case. Throws SceneFailure at `place`, or where the object is refused.
 template <class T>
 const T& named(const Catalogue<T>& all, const std::string& name, const char* what, const Place& place) {
-    if (const T* found = all.find(name)) return *found;
+    if (const T* found = all.find(name)) {
+        if (found->refusal) throw SceneFailure(*found->refusal);
+        return *found;
+    }
     std::vector<std::string> known;
     for (const T& each : all) known.push_back(each.name);
     throw SceneFailure(place, std::string(what) + " \"" + name + "\" is not there" + suggestion(name, known));

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
-#include "deck/abaqus/left_out.hpp"
+#include "deck/abaqus/keywords.hpp"
 #include "deck/cards/deck_constraint_cards.hpp"
 #include "deck/cards/deck_step_cards.hpp"
 #include "text/wording.hpp"
@@ -16,34 +18,15 @@ namespace cli::abaqus {
 
 namespace {
 
-// Requests for output, settings of a solver, and what quasi-static steps without temperatures do not need.
-const std::set<std::string> not_needed{"CONDUCTIVITY",    "CONTACT CONTROLS",
-                                       "CONTACT FILE",    "CONTACT FORMULATION",
-                                       "CONTACT OUTPUT",  "CONTOUR INTEGRAL",
-                                       "CONTACT PRINT",   "CONTROLS",
-                                       "DAMPING",         "DENSITY",
-                                       "EL FILE",         "EL PRINT",
-                                       "ELEMENT OUTPUT",  "ENERGY OUTPUT",
-                                       "ENERGY PRINT",    "FILE FORMAT",
-                                       "FILE OUTPUT",     "HOURGLASS STIFFNESS",
-                                       "MONITOR",         "NODE FILE",
-                                       "NODE OUTPUT",     "NODE PRINT",
-                                       "OUTPUT",          "PHYSICAL CONSTANTS",
-                                       "PREPRINT",        "PRINT",
-                                       "RESTART",         "SECTION CONTROLS",
-                                       "SOLVER CONTROLS", "SPECIFIC HEAT",
-                                       "TIME POINTS",     "TRANSVERSE SHEAR STIFFNESS"};
-// Keywords of the mesh, which abaqus_cards.cpp reads.
-const std::set<std::string> of_mesh{
-    "NODE",         "ELEMENT",  "NSET",         "ELSET", "SURFACE", "PART",  "END PART",     "ASSEMBLY",
-    "END ASSEMBLY", "INSTANCE", "END INSTANCE", "TIE",   "NGEN",    "ELGEN", "DISTRIBUTION", "DISTRIBUTION TABLE"};
 constexpr const char* contact_at_start =
     "*CONTACT INITIALIZATION DATA: no faces are moved; those that lie on each other are in contact";
 // Keywords whose effect the scene has in another way; each is reported once.
 const std::pair<const char*, const char*> otherwise[] = {
     {"DAMAGE STABILIZATION", "*DAMAGE STABILIZATION: no viscosity; jumps of the crack are found by energy"},
+    {"CONTACT DAMPING", "*CONTACT DAMPING: no viscosity; jumps of the crack are found by energy"},
     {"CONTACT INITIALIZATION ASSIGNMENT", contact_at_start},
     {"CONTACT INITIALIZATION DATA", contact_at_start},
+    {"CONTACT STABILIZATION", "*CONTACT STABILIZATION: no viscosity; jumps of the crack are found by energy"},
     {"FRICTION", "*FRICTION: contact without friction"},
     {"SURFACE BEHAVIOR", "*SURFACE BEHAVIOR: contact is exact, without a penalty"},
     {"SURFACE PROPERTY ASSIGNMENT", "*SURFACE PROPERTY ASSIGNMENT: surfaces are the sides of cells as they are meshed"},
@@ -62,6 +45,7 @@ public:
                                "there is no *STEP in it: a deck with loads is expected; a "
                                "mesh is for a scene, as its mesh.file (SCENE.md, [mesh])");
         for (const std::string& name : left_) deck_.left_out.push_back("*" + name);
+        list_refused();
         return std::move(deck_);
     }
 
@@ -69,22 +53,46 @@ private:
     void take(const InpCard& card) {
         const std::string& word = card.keyword;
         if (word == "PART") part_ = card.required("NAME");
-        if (word == "END PART") part_.clear();
-        if (of_mesh.contains(word)) return;
-        if (word == "PARAMETER") return card.only({});
-        if (not_needed.contains(word)) {
+        if (word == "INSTANCE") part_ = "instance " + card.required("NAME");
+        if (word == "END PART" || word == "END INSTANCE") part_.clear();
+        const Keyword* keyword = keyword_of(word);
+        if (keyword == nullptr) throw SceneFailure(card.place, instead_of_keyword(word));
+        if (keyword->use == Use::mesh) return;
+        if (keyword->use == Use::unneeded) {
             left_.insert(word);
             return;
         }
+        try {
+            take_known(card);
+        } catch (const SceneFailure& failure) {
+            if (!keep_for_use(card, keyword->use, failure)) throw;
+        }
+    }
+
+    void take_known(const InpCard& card) {
+        const std::string& word = card.keyword;
+        const Use use = keyword_of(word)->use;
+        if (use == Use::no_law || use == Use::passed || use == Use::never)
+            throw SceneFailure(card.place, instead_of_keyword(word));
+        card.check();
         if (card.has("INTERFERENCE FIT") || card.has("INITIAL CLEARANCE"))
             throw SceneFailure(card.place,
                                "faces that are pressed or parted at the start are imported as they are meshed: "
                                "give the nodes their distance, or ADJUST= of *CONTACT PAIR");
-        for (const auto& [keyword, text] : otherwise)
-            if (word == keyword) return say_once(deck_.changed, text);
+        if (card.has("NO SEPARATION"))
+            throw SceneFailure(card.place,
+                               "NO SEPARATION would hold faces together that slide freely: that is not imported; give "
+                               "*COHESIVE BEHAVIOR a law");
+        if (card.has("ROUGH"))
+            throw SceneFailure(card.place,
+                               "ROUGH would let no faces slide: contact is without friction here; give *COHESIVE "
+                               "BEHAVIOR a law");
+        for (const auto& [name, text] : otherwise)
+            if (word == name) return say_once(deck_.changed, text);
         if (steps_.take(card)) return;
         if (constraints_.take(card)) {
-            if (!part_.empty()) throw SceneFailure(card.place, "within a *PART it is not imported: give it outside");
+            if (!part_.empty())
+                throw SceneFailure(card.place, "within a *PART or *INSTANCE it is not imported: give it outside");
             return;
         }
         using Take = void (DeckReader::*)(const InpCard&);
@@ -103,13 +111,53 @@ private:
             {"INITIAL CONDITIONS", &DeckReader::take_initial},
             {"MATERIAL", &DeckReader::take_material},
             {"ORIENTATION", &DeckReader::take_orientation},
+            {"SECTION CONTROLS", &DeckReader::take_controls},
             {"SHELL SECTION", &DeckReader::take_section},
             {"SOLID SECTION", &DeckReader::take_section},
             {"SURFACE INTERACTION", &DeckReader::take_interaction},
         };
-        for (const auto& [keyword, function] : known)
-            if (word == keyword) return (this->*function)(card);
-        throw SceneFailure(card.place, instead_of_keyword(word));
+        for (const auto& [name, function] : known)
+            if (word == name) return (this->*function)(card);
+        if (word != "PARAMETER") throw SceneFailure(card.place, instead_of_keyword(word));
+    }
+
+    // Keeps what is wrong with a material, an interaction, an amplitude or an orientation until one asks for it: many
+    // decks have some that nothing uses. False: it is wrong at once.
+    bool keep_for_use(const InpCard& card, Use use, const SceneFailure& failure) {
+        std::optional<SceneFailure>* kept = nullptr;
+        if (use == Use::law || use == Use::no_law) {
+            if (damage_of_ == &DeckReader::damage_of_material) kept = &deck_.materials.back().refusal;
+            if (damage_of_ == &DeckReader::damage_of_interaction) kept = &deck_.interactions.back().refusal;
+        } else if (card.parameter("NAME").empty()) {
+            return false;
+        } else if (card.keyword == "SURFACE INTERACTION") {
+            add_interaction(card);
+            kept = &deck_.interactions.back().refusal;
+        } else if (card.keyword == "AMPLITUDE") {
+            Amplitude amplitude;
+            amplitude.name = card.parameter("NAME");
+            deck_.amplitudes.push_back(std::move(amplitude));
+            kept = &deck_.amplitudes.back().refusal;
+        } else if (card.keyword == "ORIENTATION") {
+            const std::pair key(part_, upper(card.parameter("NAME")));
+            kept = &deck_.orientations.try_emplace(key).first->second.refusal;
+        }
+        if (kept == nullptr) return false;
+        if (!*kept) *kept = failure;
+        return true;
+    }
+
+    // Lists what would be refused if something used it.
+    void list_refused() {
+        const auto list = [&](const char* what, const std::string& name, const std::optional<SceneFailure>& refusal) {
+            if (!refusal) return;
+            const Place& place = refusal->place();
+            deck_.left_out.push_back(fmt::format("{} \"{}\", which nothing uses ({})", what, name, place.text()));
+        };
+        for (const MaterialCards& each : deck_.materials) list("material", each.name, each.refusal);
+        for (const InteractionCards& each : deck_.interactions) list("surface interaction", each.name, each.refusal);
+        for (const Amplitude& each : deck_.amplitudes) list("amplitude", each.name, each.refusal);
+        for (const auto& [key, each] : deck_.orientations) list("orientation", key.second, each.refusal);
     }
 
     void take_heading(const InpCard& card) {
@@ -117,11 +165,12 @@ private:
     }
 
     void take_material(const InpCard& card) {
-        deck_.materials.push_back({card.required("NAME"), "", {}, {}, {}, {}, card.place});
+        deck_.materials.push_back({card.required("NAME"), "", {}, {}, {}, {}, card.place, {}});
         damage_of_ = &DeckReader::damage_of_material;
     }
 
-    void take_interaction(const InpCard& card) {
+    void take_interaction(const InpCard& card) { add_interaction(card); }
+    void add_interaction(const InpCard& card) {
         InteractionCards interaction;
         interaction.name = card.required("NAME");
         interaction.place = card.place;
@@ -153,54 +202,45 @@ private:
     }
 
     void take_elastic(const InpCard& card) {
-        card.only({"TYPE", "MODULI", "DEPENDENCIES"});
         require_constant(card);
         MaterialCards& m = material(card);
-        static const std::pair<const char*, std::size_t> types[] = {
+        if (!m.elastic.empty()) throw SceneFailure(card.place, "is given twice for one material");
+        static const std::map<std::string, std::size_t> types{
             {"ISOTROPIC", 2}, {"TRACTION", 3}, {"LAMINA", 6}, {"ENGINEERING CONSTANTS", 9}, {"ORTHOTROPIC", 9}};
-        const std::string type = card.has("TYPE") ? upper(card.required("TYPE")) : "ISOTROPIC";
-        std::size_t count = 0;
-        // Three letters of a word are enough.
-        for (const auto& [name, constants] : types)
-            if (type.size() >= 3 && std::string_view(name).starts_with(type)) {
-                m.elastic = name;
-                count = constants;
-            }
-        if (count == 0) card.refuse("TYPE", type, "ISOTROPIC, ORTHOTROPIC, ENGINEERING CONSTANTS, LAMINA or TRACTION");
-        m.constants = card.row();
-        m.elastic_place = card.place;
+        const std::string type = card.has("TYPE") ? card.required("TYPE") : "ISOTROPIC";
+        const std::size_t count = types.at(type);
+        Numbers constants = card.row();
         // A temperature may follow, and another row would be for another temperature.
-        if (m.constants.size() < count || m.constants.size() > count + 1)
+        if (constants.size() < count || constants.size() > count + 1)
             throw SceneFailure(card.place, fmt::format("{} numbers: {} constants, at one temperature, are expected",
-                                                       m.constants.size(), count));
-        m.constants.resize(count);
+                                                       constants.size(), count));
+        constants.resize(count);
+        m.elastic = type;
+        m.constants = std::move(constants);
+        m.elastic_place = card.place;
     }
 
     // The strain from the initial temperature on does not depend on ZERO.
     void take_expansion(const InpCard& card) {
-        card.only({"TYPE", "ZERO", "DEPENDENCIES"});
         require_constant(card);
         require_one_line(card);
-        const std::string type = card.has("TYPE") ? upper(card.required("TYPE")) : "ISO";
-        const std::size_t count = type == "ISO" ? 1 : type == "ORTHO" ? 3 : 0;
-        if (count == 0) card.refuse("TYPE", type, "ISO or ORTHO");
+        MaterialCards& m = material(card);
+        if (!m.expansion.empty()) throw SceneFailure(card.place, "is given twice for one material");
+        const std::size_t count = card.parameter("TYPE") == "ORTHO" ? 3 : 1;
         Numbers values = card.first_line().numbers();
         // A temperature may follow.
         if (values.size() != count && values.size() != count + 1)
             throw SceneFailure(card.place,
                                fmt::format("{} numbers: {} expected", values.size(), count == 1 ? "1 is" : "3 are"));
         values.resize(count);
-        material(card).expansion = std::move(values);
+        m.expansion = std::move(values);
     }
 
     void take_initiation(const InpCard& card) {
-        card.only({"CRITERION", "DEPENDENCIES", "TOLERANCE"});
         require_constant(card);
         DamageCards& d = damage(card);
         if (!d.initiation.empty()) throw SceneFailure(card.place, "is given twice for one law");
-        d.initiation = upper(card.required("CRITERION"));
-        if (d.initiation != "MAXS" && d.initiation != "QUADS" && d.initiation != "MAXE" && d.initiation != "QUADE")
-            card.refuse("CRITERION", d.initiation, "MAXS, QUADS, MAXE or QUADE");
+        d.initiation = card.required("CRITERION");
         require_one_line(card);
         d.strengths = card.first_line().numbers();
         d.initiation_place = card.place;
@@ -209,25 +249,15 @@ private:
     }
 
     void take_evolution(const InpCard& card) {
-        card.only(
-            {"TYPE", "SOFTENING", "MIXED MODE BEHAVIOR", "MODE MIX RATIO", "POWER", "DEGRADATION", "DEPENDENCIES"});
         require_constant(card);
         DamageCards& d = damage(card);
         if (!d.evolution.empty()) throw SceneFailure(card.place, "is given twice for one law");
-        d.evolution = upper(card.required("TYPE"));
-        if (d.evolution != "ENERGY" && d.evolution != "DISPLACEMENT")
-            card.refuse("TYPE", d.evolution, "ENERGY or DISPLACEMENT");
-        if (card.has("SOFTENING")) d.softening = upper(card.required("SOFTENING"));
-        if (d.softening != "LINEAR" && d.softening != "EXPONENTIAL" && d.softening != "TABULAR")
-            card.refuse("SOFTENING", d.softening, "LINEAR, EXPONENTIAL or TABULAR");
-        if (card.has("MIXED MODE BEHAVIOR")) d.mixed_mode = upper(card.required("MIXED MODE BEHAVIOR"));
+        d.evolution = card.required("TYPE");
+        if (card.has("SOFTENING")) d.softening = card.required("SOFTENING");
+        d.mixed_mode = card.parameter("MIXED MODE BEHAVIOR");
         if (d.mixed_mode == "MODE INDEPENDENT") d.mixed_mode.clear();
         const bool table = d.mixed_mode == "TABULAR";
-        if (!d.mixed_mode.empty() && d.mixed_mode != "BK" && d.mixed_mode != "POWER LAW" && !table)
-            card.refuse("MIXED MODE BEHAVIOR", d.mixed_mode, "BK, POWER LAW or TABULAR");
-        if (card.has("MODE MIX RATIO")) d.mix_ratio = upper(card.required("MODE MIX RATIO"));
-        if (d.mix_ratio != "ENERGY" && d.mix_ratio != "TRACTION")
-            card.refuse("MODE MIX RATIO", d.mix_ratio, "ENERGY or, with MIXED MODE BEHAVIOR=TABULAR, TRACTION");
+        if (card.has("MODE MIX RATIO")) d.mix_ratio = card.required("MODE MIX RATIO");
         if (d.mix_ratio == "TRACTION" && !table)
             throw SceneFailure(card.place,
                                "MODE MIX RATIO=TRACTION belongs to MIXED MODE BEHAVIOR=TABULAR: BK and POWER LAW mix "
@@ -240,8 +270,6 @@ private:
             d.power = inp_number(card.required("POWER"), card.place);
             if (!(d.power > 0)) throw SceneFailure(card.place, fmt::format("POWER={}: must be > 0", d.power));
         }
-        if (card.has("DEGRADATION") && upper(card.required("DEGRADATION")) != "MAXIMUM")
-            card.refuse("DEGRADATION", card.required("DEGRADATION"), "MAXIMUM");
         if (d.evolution == "DISPLACEMENT" && !d.mixed_mode.empty() && !table)
             throw SceneFailure(card.place, "MIXED MODE BEHAVIOR=" + d.mixed_mode + " needs TYPE=ENERGY");
         if (d.softening != "TABULAR" && !table) require_one_line(card);
@@ -251,14 +279,12 @@ private:
     }
 
     void take_behavior(const InpCard& card) {
-        card.only({"ELIGIBILITY", "REPEATED CONTACTS", "TYPE", "DEPENDENCIES"});
         require_constant(card);
         if (deck_.interactions.empty()) throw SceneFailure(card.place, "a *SURFACE INTERACTION is expected first");
-        if (card.has("TYPE") && upper(card.required("TYPE")) != "UNCOUPLED")
-            card.refuse("TYPE", card.required("TYPE"), "UNCOUPLED");
         InteractionCards& interaction = deck_.interactions.back();
+        if (interaction.cohesive) throw SceneFailure(card.place, "is given twice for one interaction");
         interaction.cohesive = true;
-        interaction.eligibility = upper(card.parameter("ELIGIBILITY"));
+        interaction.eligibility = card.parameter("ELIGIBILITY");
         interaction.stiffness = card.row();
         interaction.stiffness_place = card.place;
         if (interaction.stiffness.empty()) return;  // that of contact
@@ -267,8 +293,7 @@ private:
     }
 
     void take_section(const InpCard& card) {
-        card.only({"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "COMPOSITE", "STACK DIRECTION", "SYMMETRIC", "LAYUP",
-                   "OFFSET", "POISSON", "SECTION INTEGRATION"});
+        require_one_section(card);
         Section section;
         section.place = card.place;
         section.orientation = card.parameter("ORIENTATION");
@@ -289,6 +314,15 @@ private:
         deck_.sections.push_back(std::move(section));
     }
 
+    void require_one_section(const InpCard& card) {
+        const std::string set = card.required("ELSET");
+        const bool cohesive = card.keyword == "COHESIVE SECTION";
+        const auto [other, first] = section_of_.emplace(std::tuple(part_, upper(set), cohesive), card.place);
+        if (!first)
+            throw SceneFailure(card.place, fmt::format("the elements \"{}\" have the section of {} already", set,
+                                                       other->second.text()));
+    }
+
     static double positive_number(const std::string& field, const Place& place) {
         const double value = inp_number(field, place);
         if (!(value > 0)) throw SceneFailure(place, fmt::format("thickness {}: must be > 0", value));
@@ -296,18 +330,15 @@ private:
     }
 
     void take_cohesive_section(const InpCard& card) {
-        card.only({"ELSET", "MATERIAL", "RESPONSE", "THICKNESS", "CONTROLS", "ORIENTATION", "STACK DIRECTION"});
-        if (const std::string response = upper(card.required("RESPONSE")); response != "TRACTION SEPARATION")
-            card.refuse("RESPONSE", response, "TRACTION SEPARATION");
+        require_one_section(card);
+        (void)card.required("RESPONSE");
         if (card.has("CONTROLS"))
             say_once(deck_.changed,
                      "CONTROLS of cohesive elements: no viscosity; jumps of the crack are found by energy");
         Section section;
         section.orientation = card.has("ORIENTATION") ? card.required("ORIENTATION") : "";
         section.material = card.required("MATERIAL");
-        section.thickness = card.has("THICKNESS") ? upper(card.required("THICKNESS")) : "SPECIFIED";
-        if (section.thickness != "SPECIFIED" && section.thickness != "GEOMETRY")
-            card.refuse("THICKNESS", section.thickness, "SPECIFIED or GEOMETRY");
+        section.thickness = card.has("THICKNESS") ? card.required("THICKNESS") : "SPECIFIED";
         if (card.has("STACK DIRECTION") && card.required("STACK DIRECTION") != "3")
             throw SceneFailure(
                 card.place, "STACK DIRECTION=" + card.required("STACK DIRECTION") +
@@ -322,6 +353,16 @@ private:
         }
         section.place = card.place;
         deck_.sections.push_back(std::move(section));
+    }
+
+    // Viscosity is spoken of where cohesive elements have controls.
+    void take_controls(const InpCard& card) {
+        left_.insert(card.keyword);
+        if (card.has("MAX DEGRADATION") && inp_number(card.required("MAX DEGRADATION"), card.place) < 1)
+            say_once(deck_.changed,
+                     fmt::format("*SECTION CONTROLS, MAX DEGRADATION={}: damage goes to 1 here, and leaves "
+                                 "no stiffness",
+                                 card.required("MAX DEGRADATION")));
     }
 
     void take_orientation(const InpCard& card) {
@@ -365,7 +406,6 @@ private:
 
     // The properties of contact that is no pair have no meaning here unless surfaces adhere.
     void take_assignment(const InpCard& card) {
-        card.only({});
         for (const InpLine& line : card.lines) {
             if (line.fields.size() != 3)
                 throw SceneFailure(line.place, "two surfaces, or none, and an interaction are expected");
@@ -385,13 +425,12 @@ private:
     }
 
     void take_initial(const InpCard& card) {
-        const std::string type = upper(card.required("TYPE"));
-        if (type == "TEMPERATURE") return StepReader::take_temperatures(card, root_, deck_.initial_temperatures);
-        if (type != "CONTACT")
+        if (card.required("TYPE") == "TEMPERATURE")
+            return StepReader::take_temperatures(card, root_, deck_.initial_temperatures);
+        if (card.has("NORMAL"))
             throw SceneFailure(card.place,
-                               "TYPE=" + type +
-                                   " is not imported: CONTACT (the set of nodes that adhere) and TEMPERATURE "
-                                   "are");
+                               "NORMAL is not imported: nodes that adhere do so in all directions; take it out where "
+                               "this is meant");
         for (const InpLine& line : card.lines) {
             if (line.fields.size() != 3)
                 throw SceneFailure(line.place, "slave, master and a set of nodes are expected");
@@ -407,8 +446,9 @@ private:
     DamageCards& (DeckReader::*damage_of_)() = nullptr;
     StepReader steps_;
     ConstraintReader constraints_;
-    std::string part_;                                                    // that is open
-    std::map<std::pair<std::string, std::string>, std::size_t> pair_of_;  // by slave and master in upper case
+    std::string part_;                                                        // the part or instance that is open
+    std::map<std::pair<std::string, std::string>, std::size_t> pair_of_;      // by slave and master in upper case
+    std::map<std::tuple<std::string, std::string, bool>, Place> section_of_;  // by part, set and if it is cohesive
     std::set<std::string> left_;
 };
 

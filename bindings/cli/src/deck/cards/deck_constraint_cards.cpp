@@ -32,7 +32,6 @@ void ConstraintReader::finish() const {
 }
 
 void ConstraintReader::take_coupling(const InpCard& card) {
-    card.only({"CONSTRAINT NAME", "REF NODE", "SURFACE"});
     open_ = Coupling{{&root_, card.required("REF NODE"), card.place},
                      {&root_, card.required("SURFACE"), card.place},
                      {},
@@ -42,7 +41,6 @@ void ConstraintReader::take_coupling(const InpCard& card) {
 
 void ConstraintReader::take_kinematic(const InpCard& card) {
     if (!open_) throw SceneFailure(card.place, "a *COUPLING is expected first");
-    card.only({});
     for (const InpLine& line : card.lines) {
         const int first = degree_of_freedom(line.fields[0], 6, line.place);
         const bool one = line.fields.size() < 2 || line.fields[1].empty();
@@ -59,7 +57,6 @@ void ConstraintReader::take_kinematic(const InpCard& card) {
 }
 
 void ConstraintReader::take_rigid_body(const InpCard& card) {
-    card.only({"REF NODE", "NSET", "PIN NSET", "TIE NSET", "ROT NODE"});
     Coupling coupling{{&root_, card.required("REF NODE"), card.place}, {&root_, "", card.place}, {}, {}, card.place};
     std::size_t given = 0;
     for (const char* name : {"NSET", "PIN NSET", "TIE NSET"})
@@ -74,7 +71,6 @@ void ConstraintReader::take_rigid_body(const InpCard& card) {
 
 // Lines with the number of terms, each followed by that many triples of node or set, degree of freedom, coefficient.
 void ConstraintReader::take_equation(const InpCard& card) {
-    card.only({});
     std::vector<EquationEntry> terms;
     std::int64_t wanted = 0;
     for (const InpLine& line : card.lines) {
@@ -110,7 +106,6 @@ void ConstraintReader::take_equation(const InpCard& card) {
 }
 
 void ConstraintReader::take_pins(const InpCard& card) {
-    card.only({});
     (void)card.first_line();
     for (const InpLine& line : card.lines) {
         const std::string type = line.fields.empty() ? "" : upper(line.fields[0]);
@@ -125,9 +120,6 @@ void ConstraintReader::take_pins(const InpCard& card) {
 
 // The first point lies on axis 1, the second in the plane of axes 1 and 2.
 void ConstraintReader::take_transform(const InpCard& card) {
-    card.only({"NSET", "TYPE"});
-    if (card.has("TYPE") && upper(card.required("TYPE")) != "R")
-        card.refuse("TYPE", card.required("TYPE"), "R (degrees of freedom that turn from node to node stay out)");
     const Numbers points = card.first_line().numbers();
     if (points.size() != 6) throw SceneFailure(card.lines[0].place, "6 coordinates are expected");
     Transform transform{{&root_, card.required("NSET"), card.place}, {}, card.place};

@@ -48,16 +48,12 @@ bool StepReader::take(const InpCard& card) {
 }
 
 void StepReader::take_amplitude(const InpCard& card) {
-    card.only({"NAME", "DEFINITION", "TIME", "VALUE", "SMOOTH"});
     Amplitude amplitude;
     amplitude.name = card.required("NAME");
     amplitude.place = card.place;
-    amplitude.total_time = upper(card.parameter("TIME")) == "TOTAL TIME";
-    amplitude.absolute = upper(card.parameter("VALUE")) == "ABSOLUTE";
-    const std::string definition = card.has("DEFINITION") ? upper(card.required("DEFINITION")) : "TABULAR";
-    amplitude.smooth = definition == "SMOOTH STEP";
-    if (definition != "TABULAR" && definition != "SMOOTH STEP")
-        card.refuse("DEFINITION", definition, "TABULAR or SMOOTH STEP");
+    amplitude.total_time = card.parameter("TIME") == "TOTAL TIME";
+    amplitude.absolute = card.parameter("VALUE") == "ABSOLUTE";
+    amplitude.smooth = card.parameter("DEFINITION") == "SMOOTH STEP";
     if (card.has("SMOOTH")) say_once(deck_.changed, "*AMPLITUDE, SMOOTH: straight lines between its points");
     const Numbers values = card.row();
     if (values.size() < 2 || values.size() % 2 != 0)
@@ -71,11 +67,10 @@ void StepReader::take_amplitude(const InpCard& card) {
 }
 
 void StepReader::take_step(const InpCard& card) {
-    card.only({"NAME", "NLGEOM", "INC", "AMPLITUDE", "UNSYMM", "EXTRAPOLATION", "CONVERT SDI"});
     Step step;
     step.name = card.parameter("NAME");
     step.place = card.place;
-    if (card.has("AMPLITUDE")) step.ramp = upper(card.required("AMPLITUDE")) == "RAMP";
+    if (card.has("AMPLITUDE")) step.ramp = card.required("AMPLITUDE") == "RAMP";
     if (card.has("NLGEOM") && upper(card.parameter("NLGEOM")) != "NO")
         say_once(
             deck_.changed,
@@ -89,10 +84,16 @@ Step& StepReader::step(const InpCard& card) {
     if (!in_step_) throw SceneFailure(card.place, "a *STEP is expected first");
     return deck_.steps.back();
 }
-void StepReader::end_step(const InpCard&) { in_step_ = false; }
+void StepReader::end_step(const InpCard& card) {
+    const Step& ended = step(card);
+    if (!ended.procedure)
+        throw SceneFailure(ended.place, "the step has no procedure: *STATIC, or *DYNAMIC, APPLICATION=QUASI-STATIC");
+    in_step_ = false;
+}
 
 void StepReader::take_procedure(const InpCard& card) {
     Step& s = step(card);
+    s.procedure = true;
     if (card.has("RIKS")) {
         s.riks = true;
         s.increment = s.period / free_steps;
@@ -102,7 +103,7 @@ void StepReader::take_procedure(const InpCard& card) {
         return;
     }
     if (card.keyword == "DYNAMIC") {
-        if (upper(card.parameter("APPLICATION")) != "QUASI-STATIC")
+        if (card.parameter("APPLICATION") != "QUASI-STATIC")
             throw SceneFailure(card.place, card.has("EXPLICIT")
                                                ? "explicit steps stay out: give *STATIC, which has no inertia"
                                                : "dynamic steps are not imported, but for APPLICATION=QUASI-STATIC");
@@ -136,21 +137,14 @@ void StepReader::take_procedure(const InpCard& card) {
 std::vector<LoadLine>& StepReader::boundaries() { return in_step_ ? deck_.steps.back().boundaries : deck_.held; }
 
 // OP=NEW: what earlier steps have prescribed ends, unless this step gives it again.
-bool StepReader::renews(const InpCard& card) {
-    const std::string op = card.has("OP") ? upper(card.required("OP")) : "MOD";
-    if (op != "MOD" && op != "NEW") card.refuse("OP", op, "MOD or NEW");
-    return op == "NEW";
-}
+bool StepReader::renews(const InpCard& card) { return card.parameter("OP") == "NEW"; }
 
 void StepReader::take_boundary(const InpCard& card) {
-    card.only({"AMPLITUDE", "OP", "TYPE", "FIXED"});
     if (renews(card)) {
         step(card).new_boundaries = true;
         step(card).renewed = card.place;
     }
-    const std::string type = card.has("TYPE") ? upper(card.required("TYPE")) : "DISPLACEMENT";
-    if (type != "DISPLACEMENT" && type != "VELOCITY") card.refuse("TYPE", type, "DISPLACEMENT or VELOCITY");
-    const bool rate = type == "VELOCITY";
+    const bool rate = card.parameter("TYPE") == "VELOCITY";
     if (rate && card.has("AMPLITUDE"))
         throw SceneFailure(card.place, "VELOCITY with AMPLITUDE is not imported: give displacements, its integral");
     if (rate)
@@ -194,7 +188,6 @@ void StepReader::require_displacements(const InpCard& card) {
 }
 
 void StepReader::take_forces(const InpCard& card) {
-    card.only({"AMPLITUDE", "OP"});
     if (renews(card)) step(card).new_forces = true;
     require_displacements(card);
     for (const InpLine& line : card.lines) {
@@ -212,7 +205,6 @@ void StepReader::take_forces(const InpCard& card) {
 }
 
 void StepReader::take_distributed(const InpCard& card) {
-    card.only({"AMPLITUDE", "OP", "FOLLOWER", "ORIENTATION", "CONSTANT RESULTANT"});
     if (renews(card)) step(card).new_distributed = true;
     if (card.has("ORIENTATION")) throw SceneFailure(card.place, "ORIENTATION is not imported");
     require_displacements(card);
@@ -232,7 +224,6 @@ void StepReader::take_distributed(const InpCard& card) {
 }
 
 void StepReader::take_pressures(const InpCard& card) {
-    card.only({"AMPLITUDE", "OP"});
     if (renews(card)) step(card).new_distributed = true;
     require_displacements(card);
     for (const InpLine& line : card.lines) {
@@ -258,7 +249,6 @@ void StepReader::take_pressures(const InpCard& card) {
 }
 
 void StepReader::take_temperatures(const InpCard& card, const Part& root, std::vector<LoadLine>& lines) {
-    card.only({"TYPE", "AMPLITUDE", "OP"});
     for (const InpLine& line : card.lines) {
         if (line.fields.size() != 2)
             throw SceneFailure(line.place,

@@ -25,7 +25,7 @@ public:
 private:
     void take_amplitude(const InpCard& card);
     void take_step(const InpCard& card);
-    void end_step(const InpCard&);
+    void end_step(const InpCard& card);
     void take_temperature(const InpCard& card);
     void take_procedure(const InpCard& card);
     void take_boundary(const InpCard& card);
