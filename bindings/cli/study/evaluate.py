@@ -65,7 +65,7 @@ def evaluate_dcb(curve, sheet, given):
     """Answers of the methods, and the points."""
     points = Points(curve.displacement, curve.load, curve.path)
     marks = marked(curve, points, sheet, given)
-    require_modulus(lambda one: methods.dcb_modulus(points.compliance, one)[0], points.compliance, sheet, curve)
+    points.modulus = require_modulus(lambda one: methods.dcb_modulus(points.compliance, one)[0], points.compliance, sheet, curve, "dcb")
     answers, offset = [], 0.0
     if len(marks) >= LEAST_MARKS:
         d, p, a = marks[:, 0] - points.zero, marks[:, 1], marks[:, 2]
@@ -111,7 +111,7 @@ def calibrated(curve, points, sheet, given):
         complain(f"warning: compliance calibration of ASTM D7905 needs --calibration LENGTH=FILE for two more crack lengths; "
                  f"{len(cracks) - 1} given")
         return []
-    require_growing(cracks, compliances, "--calibration", "do the files belong to other lengths?")
+    require_growing(cracks, compliances, "--calibration", "do the files belong to other lengths?", each=True)
     intercept, m = methods.enf_calibration(cracks, compliances)
     return [Answer("compliance calibration", curve.displacement, np.full(len(curve.load), sheet["notch"]),
                    methods.enf_calibrated(points.load, m, sheet), lambda d, p, a: methods.enf_calibrated(p, m, sheet),
@@ -120,7 +120,7 @@ def calibrated(curve, points, sheet, given):
 
 def evaluate_enf(curve, sheet, given):
     points = Points(curve.displacement, curve.load, curve.path)
-    require_modulus(lambda one: methods.enf_modulus(points.compliance, one)[0], points.compliance, sheet, curve)
+    points.modulus = require_modulus(lambda one: methods.enf_modulus(points.compliance, one)[0], points.compliance, sheet, curve, "enf")
     answers = calibrated(curve, points, sheet, given)
     if "G13" not in sheet:
         complain("warning: effective crack: without --G13 the shear of the beam counts as crack if --E1 is given (these values are "
@@ -139,7 +139,7 @@ def evaluate_mmb(curve, sheet, given):
     marks = marked(curve, points, sheet, given)
     chi = methods.chi(sheet["E1"], sheet["E2"], sheet["G13"])
     modulus = methods.mmb_modulus(points.compliance, chi, sheet)
-    require_modulus(lambda one: methods.mmb_modulus(points.compliance, chi, one), points.compliance, sheet, curve)
+    points.modulus = require_modulus(lambda one: methods.mmb_modulus(points.compliance, chi, one), points.compliance, sheet, curve, "mmb")
     if len(marks):
         points.add_visual(marks[np.flatnonzero(marks[:, 2] > sheet["notch"])[0]])
     points.place_cracks(sheet["notch"], marks)
@@ -171,13 +171,16 @@ def at_points(answers, points, path):
     return table
 
 
-def lines(table, answers, points):
+def lines(table, answers, points, sheet):
     """What the command says of the methods."""
     for answer in answers:
         said = ", ".join(f"{point.partition(' (')[0]} {rate:.4g}" for point, rate in table[answer.name].items())
         mean = answer.propagation()
         said += f", propagation {mean[0]:.4g} +- {mean[1]:.2g} of {mean[2]} marks" if mean else ""
         yield f"{answer.name}: {said} J/m2" + (f" ({', '.join(answer.words())})" if answer.numbers else "")
+    yield f"modulus: the initial compliance of {1e3 * points.compliance:.4g} mm/N gives a bending modulus of {points.modulus / 1e9:.4g} GPa" + (
+        f", {points.modulus / sheet['E1']:.2f} of --E1" if "E1" in sheet else "") + (
+            "" if {"E2", "G13"} <= sheet.keys() else " (without --E2 and --G13 the rotation of the arms counts as bending)")
     if abs(points.zero) > 0.01 * points.displacement[points.top]:
         yield (f"zero: the initial line begins at a displacement of {1e3 * points.zero:.4g} mm (slack or preload of the fixture), "
                "from which methods count")
@@ -189,20 +192,20 @@ def lines(table, answers, points):
                f"through their neighbours, which leaves up to {error:.2g} % of toughness (standard error)")
 
 
-def report(given, curve, answers, points, fitted):
+def report(given, sheet, curve, answers, points, fitted):
     with loading():
         from specimens.pictures import draw
     table = at_points(answers, points, curve.path)
-    for line in lines(table, answers, points):
+    for line in lines(table, answers, points, sheet):
         say(line)
     bands = compared(given.test, fitted, answers)
     replaced = os.path.lexists(os.path.join(given.out, NAMES[0]))
     held = hold(given.out)
     claim(given.out, NAMES, False)
     about = {"test": given.test, "file": curve.path, "sheet": {key: text for key, text in given.sheet.items() if text},
-             "units": {"displacement": "m", "crack": "m", "load": "N", "compliance": "m/N", "toughness": "J/m2",
+             "units": {"displacement": "m", "crack": "m", "load": "N", "compliance": "m/N", "modulus": "Pa", "toughness": "J/m2",
                        "numbers": {name: unit for answer in answers for name, unit in answer.units().items()}},
-             "compliance": points.compliance, "zero": points.zero, "noise": points.noise,
+             "compliance": points.compliance, "modulus": points.modulus, "zero": points.zero, "noise": points.noise,
              "points": [vars(p) | {"crack": p.crack if p.crack == p.crack else None} for p in points.points],
              "toughness": table, "numbers": {answer.name: answer.numbers for answer in answers},
              "propagation": {answer.name: dict(zip(("mean", "deviation", "marks"), answer.propagation())) for answer in answers
@@ -227,7 +230,7 @@ def main():
     fitted = beside(given.beside) if given.beside else []
     curve = Curve(given.data[0], given, given.marks)
     answers, points = TESTS[given.test](curve, sheet, given)
-    report(given, curve, answers, points, fitted)
+    report(given, sheet, curve, answers, points, fitted)
     return DONE
 
 

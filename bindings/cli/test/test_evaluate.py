@@ -5,6 +5,7 @@ with noise."""
 import csv
 import json
 import os
+import re
 import sys
 
 import numpy as np
@@ -312,8 +313,16 @@ def implausible():
     expect_error(start("evaluate", "dcb", metres, "--notch", "50mm", *dcb), 2, "bending modulus of 0.1[0-9]* GPa.*units of the file")
     path = raw(os.path.join(here, "mm.csv"), ["Extension (mm)", "Load (N)", "Crack (mm)"], (x, y, marks))
     expect_error(start("evaluate", "dcb", path, "--notch", "50m", *dcb), 2, "up to 90 mm, are not longer than --notch 50m")
-    code, _, error = start("evaluate", "dcb", path, "--notch", "50mm", "--E1", "40GPa", *dcb)
-    expect(code == 0 and "warning: " in error and "--E1 is 40 GPa" in error, f"a modulus beside another E1: {error}")
+    # Half of the width for all of it, and the opening of one arm for that of both: told, with what would agree.
+    for given, asked, more in (("80GPa", "1.39", ""), ("60GPa", "1.85", "opening of one arm"), ("200GPa", "0.56", "(--compliance)")):
+        code, shown, error = start("evaluate", "dcb", path, "--notch", "50mm", "--E1", given, *dcb)
+        expect(code == 0 and f"warning: {path}: the initial compliance" in error and f"--E1 is {given[:-3]} GPa: it would agree with a width of" in error
+               and ("opening of one arm" in error) == (more == "opening of one arm") and more in error and f"GPa, {asked} of --E1 (without" in shown,
+               f"a modulus beside E1 of {given}: {shown} {error}")
+    code, shown, error = start("evaluate", "dcb", path, "--notch", "50mm", "--E1", "140GPa", "--E2", "9GPa", "--G13", "5GPa", *dcb)
+    expect(code == 0 and "warning" not in error and re.search(r"^modulus: the initial compliance of 0.1[0-9]* mm/N gives a bending modulus of 1[2-4][0-9.]* GPa, "
+                                                             "[0-9.]* of --E1$", shown, re.M), f"the modulus is always said: {shown} {error}")
+    expect(90e9 < evaluated(out)["modulus"] < 150e9 and evaluated(out)["units"]["modulus"] == "Pa", "and kept")
     files = {}
     for a in (0.02, 0.03, 0.04):
         bend, load = bent(a, 0.05)
@@ -321,6 +330,8 @@ def implausible():
     words = ["evaluate", "enf", files[0.03], "--notch", "30mm", "--half-span", "50mm", *dcb]
     expect_error(start(*words, "--calibration", f"20mm={files[0.04]}", "--calibration", f"40mm={files[0.02]}"), 2,
                  "compliance does not grow with the crack")
+    expect_error(start(*words[:2], files[0.02], *words[3:], "--calibration", f"20mm={files[0.03]}", "--calibration", f"40mm={files[0.04]}"), 2,
+                 "compliance does not grow with the crack: .* at 20 mm, .* at 30 mm: do the files")
     expect_error(start(*words, "--calibration", f"30mm={files[0.03]}", "--calibration", f"40mm={files[0.04]}"), 2,
                  "30 mm is the length of --notch, too")
     expect_error(start("evaluate", "dcb", files[0.03], "--notch", "50mm", *dcb), 2, "1 to 1000 GPa are expected")
