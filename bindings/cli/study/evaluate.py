@@ -26,46 +26,20 @@ from own_files import claim, write_file  # noqa: E402
 from specimens import methods  # noqa: E402
 from specimens.answer import Answer  # noqa: E402
 from specimens.beside import beside, compared  # noqa: E402
+from specimens.checks import complain_of_offsets, complain_of_spread, marked, said_of_marks  # noqa: E402
 from specimens.curve import Curve  # noqa: E402
 from specimens.points import Point, Points  # noqa: E402
 from specimens.sheet import require_growing, require_modulus, sheet_of  # noqa: E402
 
 LEAST_MARKS = 3  # crack lengths for a line through their compliances; ISO 15024 asks for more
-# A crack that is longer than the notch by the first part makes the specimen softer by the second part of that at least: by 2.8
-# times in a DCB, and by half in an MMB with a lever of the half span. Half and twice of both refuse the same marks in test_tables.py.
-SURELY_GROWN, LEAST_SOFTER = 0.05, 0.2
 NAMES = ["evaluate.json", "r-curve.csv", "evaluate.png"]
-
-
-def marked(curve, points, sheet, given):
-    """Displacement, load without noise and crack length of the marks; refused where they are not those of this notch."""
-    marks = curve.marks.copy()
-    if not len(marks):
-        return marks
-    if not marks[-1, 2] > sheet["notch"]:
-        raise Trouble(f"{curve.path}: the cracks of the file, up to {1e3 * marks[:, 2].max():g} mm, are not longer than --notch "
-                      f"{given.sheet['notch']}, from where they grow")
-    if not marks[0, 2] < 2 * sheet["notch"]:
-        complain(f"warning: {curve.path}: the first crack of the file is {1e3 * marks[0, 2]:g} mm long, --notch is "
-                 f"{given.sheet['notch']}: are both measured from the line of load?")
-    longest = marks[np.argmax(marks[:, 2])]
-    grown, softer = longest[2] / sheet["notch"] - 1, (longest[0] - points.zero) / longest[1] / points.compliance - 1
-    if grown > SURELY_GROWN and not softer > LEAST_SOFTER * grown:
-        raise Trouble(f"{given.marks or curve.path}: the crack of {1e3 * longest[2]:g} mm is marked at a displacement of {1e3 * longest[0]:.4g} "
-                      f"mm, where the compliance is still that of the notch of {given.sheet['notch']}: is the time or the displacement of "
-                      "the marks in another unit, or do they belong to another test?")
-    # A mark in an unloading lies off the curve, and keeps its load.
-    load = np.interp(marks[:, 0], points.displacement, points.load)
-    near = np.abs(load - marks[:, 1]) <= 4 * points.noise
-    marks[near, 1] = load[near]
-    return marks
 
 
 def evaluate_dcb(curve, sheet, given):
     """Answers of the methods, and the points."""
     points = Points(curve.displacement, curve.load, curve.path)
-    marks = marked(curve, points, sheet, given)
     points.modulus = require_modulus(lambda one: methods.dcb_modulus(points.compliance, one)[0], points.compliance, sheet, curve, "dcb")
+    marks = marked(curve, points, sheet, given, lambda compliance, one: methods.dcb_modulus(compliance, one)[0])
     answers, offset = [], 0.0
     if len(marks) >= LEAST_MARKS:
         d, p, a = marks[:, 0] - points.zero, marks[:, 1], marks[:, 2]
@@ -136,10 +110,10 @@ def evaluate_enf(curve, sheet, given):
 
 def evaluate_mmb(curve, sheet, given):
     points = Points(curve.displacement, curve.load, curve.path)
-    marks = marked(curve, points, sheet, given)
     chi = methods.chi(sheet["E1"], sheet["E2"], sheet["G13"])
     modulus = methods.mmb_modulus(points.compliance, chi, sheet)
     points.modulus = require_modulus(lambda one: methods.mmb_modulus(points.compliance, chi, one), points.compliance, sheet, curve, "mmb")
+    marks = marked(curve, points, sheet, given, lambda compliance, one: methods.mmb_modulus(compliance, chi, one))
     if len(marks):
         points.add_visual(marks[np.flatnonzero(marks[:, 2] > sheet["notch"])[0]])
     points.place_cracks(sheet["notch"], marks)
@@ -174,7 +148,7 @@ def at_points(answers, points, path):
 def lines(table, answers, points, sheet):
     """What the command says of the methods."""
     for answer in answers:
-        said = ", ".join(f"{point.partition(' (')[0]} {rate:.4g}" for point, rate in table[answer.name].items())
+        said = ", ".join(f"{point} {rate:.4g}" for point, rate in table[answer.name].items())
         mean = answer.propagation()
         said += f", propagation {mean[0]:.4g} +- {mean[1]:.2g} of {mean[2]} marks" if mean else ""
         yield f"{answer.name}: {said} J/m2" + (f" ({', '.join(answer.words())})" if answer.numbers else "")
@@ -184,7 +158,7 @@ def lines(table, answers, points, sheet):
     if abs(points.zero) > 0.01 * points.displacement[points.top]:
         yield (f"zero: the initial line begins at a displacement of {1e3 * points.zero:.4g} mm (slack or preload of the fixture), "
                "from which methods count")
-    if any(point.name.startswith("5 % (") for point in points.points):
+    if any(point.after_largest_load for point in points.points):
         yield "5 %: the curve reaches this offset after its largest load, which is taken"
     if points.noise > 1e-3 * points.points[-1].load:
         error = 200 * max(p.error / p.load for p in points.points)
@@ -196,8 +170,13 @@ def report(given, sheet, curve, answers, points, fitted):
     with loading():
         from specimens.pictures import draw
     table = at_points(answers, points, curve.path)
+    complain_of_offsets({answer.name: answer.numbers for answer in answers}, sheet, points.modulus)
+    complain_of_spread(table)
     for line in lines(table, answers, points, sheet):
         say(line)
+    counted = said_of_marks(curve.marks, sheet["notch"]) if given.test != "enf" else ""
+    if counted:
+        say(counted)
     bands = compared(given.test, fitted, answers)
     replaced = os.path.lexists(os.path.join(given.out, NAMES[0]))
     held = hold(given.out)

@@ -10,6 +10,7 @@ from support import expect, finish, folder
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "study"))
 from command import Trouble  # noqa: E402
+from measured.broken import broken_at  # noqa: E402
 from measured.columns import found  # noqa: E402
 from measured.curve_data import CurveData, scale_of  # noqa: E402
 from measured.loops import monotone, turning_points  # noqa: E402
@@ -179,9 +180,29 @@ def slacks():
            f"the compliance of the machine: {stiff.x[top]} {stiff.said}")
 
 
+def breaks():
+    """A load that is gone at once at the end is the break, with the points on its way; drops, unloadings and cracks that run
+    through are none."""
+    x = np.linspace(0, 3, 601)
+    load = np.where(x < 1.5, 40 * x, 60 * np.sqrt(1.5 / np.maximum(x, 0.1))) + 0.1 * np.sin(50 * x)
+    fallen = np.concatenate([load[:500], [0.5 * load[499], 0.2 * load[499]], np.zeros(99)])
+    drop = np.where(x < 1.5, 40 * x, 20 + 5 * (x - 1.5))
+    through = 60 * np.clip(np.minimum(x / 1.5, (3 - x) / 1.5), 0, 1)
+    back = np.concatenate([x[:500], np.linspace(x[499], 0, 101)])
+    unloaded = np.concatenate([load[:500], load[499] * np.linspace(1, 0, 101)])
+    for what, at, y, wanted in (("a break", x, fallen, 500), ("a drop", x, drop, None), ("a crack that runs through", x, through, None),
+                                ("an unloading", back, unloaded, None), ("a fast return", np.append(x, 0.0), np.append(load, 0.0), None),
+                                ("a break of few points", x[:500:20], np.append(load[:480:20], 0.0), 24)):
+        expect(broken_at(at, y) == wanted, f"{what}: {broken_at(at, y)}, {wanted} is right")
+    data = CurveData(file_of("Weg [mm];Kraft [N]\n" + rows(";", x=x, y=fallen)), GIVEN, ("m", "N"))
+    expect(len(data.x) == 500 and "the load drops to zero at 0.002495 m: the specimen breaks there, and the 101 rows behind are left out" in data.said,
+           f"a fit leaves it out: {len(data.x)} {data.said}")
+
+
 variants()
 refusals()
 units()
 ways()
 slacks()
+breaks()
 finish()

@@ -5,6 +5,7 @@ import numpy as np
 from _pictures.input_file import quoted
 from analyses import LEAST, MOST
 from command import Trouble
+from measured.broken import broken_at, said_of_break
 from measured.columns import choose, label
 from measured.loops import Way
 from measured.slack import find_slack
@@ -105,6 +106,10 @@ class CurveData:
             points[which] = points[which] * factor
             self._require_numbers(self.names[which], points[which], f" times {name} {factor:g}")
         points = upright(points, (given.x_scale, scale), said)
+        broken = broken_at(*points) if given.x.startswith("load") and given.y.startswith("reaction") else None
+        if broken is not None:
+            said.append(said_of_break(points[0][broken - 1], len(points[0]) - broken, length))
+            points = [column[:broken] for column in points]
         # The compliance of the machine counts for the whole load, before it is divided by the width.
         points = self._of_specimen(points, given, (length, force), given.scale / scale, said)
         self.rows = len(points[0])
