@@ -206,7 +206,7 @@ def main():
     given = given_words()
     sheet = sheet_of(given)
     given.machine = sheet.pop("compliance", 0.0)
-    fitted = beside(given.beside) if given.beside else []
+    fitted = beside(given.beside, given.data[0]) if given.beside else []
     curve = Curve(given.data[0], given, given.marks)
     answers, points = TESTS[given.test](curve, sheet, given)
     report(given, sheet, curve, answers, points, fitted)

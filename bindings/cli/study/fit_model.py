@@ -132,6 +132,13 @@ def range_of(x_name, scene, times):
     return values[0], values[falls[0] if falls.size else -1]
 
 
+def kind_of_new(path):
+    """The test for which `delam new` has written a scene, "mmb" for example; nothing where something else has."""
+    with open(path, encoding="utf-8", errors="replace") as file:
+        begin = file.read(len(OF_NEW) + 16)
+    return begin[len(OF_NEW):].partition(" ")[0] if begin.startswith(OF_NEW) else ""
+
+
 class Infeasible(Exception):
     """The scene is none, or has no end, at these parameters; with the exit code of the analysis."""
 
@@ -277,10 +284,9 @@ class Model:
             raise Trouble(said + "leave out the points before it, or --slack and --x-scale move and scale it")
         farther = ("give it a later end ([time] end)" if self.x_name == "time" else
                    "let the values of its [[patterns]] go on to there")
-        with open(self.files[which], encoding="utf-8", errors="replace") as file:
-            if file.read(len(OF_NEW)) == OF_NEW:
-                farther = ("write the scene with a larger growth of the crack (`delam new .. --growth`) or, if that is not "
-                           "allowed, with a larger toughness")
+        if kind_of_new(self.files[which]):
+            farther = ("write the scene with a larger growth of the crack (`delam new .. --growth`) or, if that is not "
+                       "allowed, with a larger toughness")
         raise Trouble(said + farther + ", or leave out the points behind it; are the units the same? Else --x-scale is a "
                       "factor on it")
 

@@ -104,6 +104,11 @@ def opening():
     code, again, error = start(*words, "--beside", here, "--out", out)
     expect(code == 0 and "280 J/m2, interval 250 to 310, of mode I" in again, f"with errors in what is held: {again} {error}")
     expect("in the place of an earlier evaluation" in shown, "an earlier evaluation that is replaced is told")
+    with open(os.path.join(here, "fit.json"), "w", encoding="utf-8") as file:
+        json.dump({"units": ["mm", "N"], "data": ["other/dcb-2.csv"], "describes": False, "parameters": []}, file)
+    code, _, error = start(*words, "--beside", here, "--out", out)
+    expect(code == 0 and "it is the fit of dcb-2.csv, and this is dcb.csv" in error and "its model does not describe its curve" in error,
+           f"a fit of another file: {error}")
     # A toughness of another mode is told, and does not stand beside.
     with open(os.path.join(here, "fit.json"), "w", encoding="utf-8") as file:
         json.dump({"units": ["mm", "N"], "parameters": [
