@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a fit compares with the data: analyses at given parameters, with the derivatives by those that are numbers of
 laws, which the analysis itself has ([output] sensitivities)."""
+import difflib
 import os
 import re
 import tomllib
@@ -69,10 +70,7 @@ class Parameter:
                 if answer.errors and answer.errors[0]["key"] == self.path}
         if len(said) == 1:
             text = said.pop().removeprefix("--set: ")
-            numbers = numbers_of_laws(read_scene(file))
-            if numbers and "." not in self.path:
-                raise Trouble(f"--parameters {text.partition(';')[0]}; numbers of the laws of {file}: {', '.join(numbers)}")
-            raise Trouble(f"--parameters {text}")
+            raise Trouble(f"--parameters {with_hint(text, self.path, file)}")
 
 
 def numbers_of_laws(scene):
@@ -81,6 +79,15 @@ def numbers_of_laws(scene):
     keys = [f"laws.{k}.{key}" for k, law in enumerate(laws if isinstance(laws, list) else []) if isinstance(law, dict)
             for key in law if value_at(law, key) is not None]
     return sorted(keys, key=lambda key: not key.endswith("toughness"))
+
+
+def with_hint(text, path, file):
+    """What is said of a key that is none, with the number of a law of the scene that is meant, or all of them."""
+    numbers = numbers_of_laws(read_scene(file))
+    near = difflib.get_close_matches(word_of(path), numbers, 1, 0.8)
+    if near:
+        return f"{text.partition(';')[0]} (did you mean {near[0]}?)"
+    return f"{text.partition(';')[0]}; numbers of the laws of {file}: {', '.join(numbers)}" if numbers and "." not in path else text
 
 
 def word_of(path):

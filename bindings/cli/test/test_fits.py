@@ -367,6 +367,10 @@ def words():
     expect(code == 2 and re.search("GIc: unknown key; numbers of the laws of .*: laws.0.normal_toughness, laws.0.tang", error),
            f"a key that is none: {error}")
     expect("solver" not in error, "and no list of tables")
+    for command in (["fit", scene, "--data", far, "--x-scale", "0.5", "--parameters", "law.0.normal_toughness"],
+                    ["sweep", scene, "--vary", "law.0.normal_toughness=0.1,0.2"]):
+        code, _, error = start(*command, "--out", here + "/hint")
+        expect(code == 2 and "did you mean laws.0.normal_toughness?" in error, f"a key that is nearly one: {error}")
     steep = write_lines(os.path.join(here, "steep.csv"), "Weg (mm);Kraft (N)", *(f"{x / 10};{8 * x}" for x in range(12)))
     code, shown, error = start("fit", scene, "--data", steep, "--parameters", "laws.0.tangential_toughness", "--out", here + "/fit",
                                "--set", "time.steps=10")
