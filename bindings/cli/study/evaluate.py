@@ -5,6 +5,7 @@
 Reads the raw file of a test machine as `delam fit` does. Writes DIR/evaluate.json, DIR/r-curve.csv and
 DIR/evaluate.png; the lines say the toughness of each method at each point, beside that of a fit (--beside).
 """
+import contextlib
 import json
 import os
 
@@ -19,6 +20,7 @@ require("numpy", "matplotlib")
 
 import numpy as np  # noqa: E402
 
+from _pictures.input_file import MOST_RESULT, Unreadable, read_json  # noqa: E402
 from command import complain, loading, say  # noqa: E402
 from analyses import DONE, Trouble, given_words, hold, run_study  # noqa: E402
 from measured.units import kind_of, quantity  # noqa: E402
@@ -26,7 +28,7 @@ from own_files import claim, write_file  # noqa: E402
 from specimens import methods  # noqa: E402
 from specimens.answer import Answer  # noqa: E402
 from specimens.beside import beside, compared  # noqa: E402
-from specimens.checks import complain_of_offsets, complain_of_spread, marked, said_of_marks  # noqa: E402
+from specimens.checks import complain_of_offsets, complain_of_spread, complain_of_toughness, marked, require_lengths, said_of_marks  # noqa: E402
 from specimens.curve import Curve  # noqa: E402
 from specimens.points import Point, Points  # noqa: E402
 from specimens.sheet import require_growing, require_modulus, sheet_of  # noqa: E402
@@ -37,6 +39,7 @@ NAMES = ["evaluate.json", "r-curve.csv", "evaluate.png"]
 
 def evaluate_dcb(curve, sheet, given):
     """Answers of the methods, and the points."""
+    require_lengths(curve, sheet, given)
     points = Points(curve.displacement, curve.load, curve.path)
     points.modulus = require_modulus(lambda one: methods.dcb_modulus(points.compliance, one)[0], points.compliance, sheet, curve, "dcb")
     marks = marked(curve, points, sheet, given, lambda compliance, one: methods.dcb_modulus(compliance, one)[0])
@@ -109,6 +112,7 @@ def evaluate_enf(curve, sheet, given):
 
 
 def evaluate_mmb(curve, sheet, given):
+    require_lengths(curve, sheet, given)
     points = Points(curve.displacement, curve.load, curve.path)
     chi = methods.chi(sheet["E1"], sheet["E2"], sheet["G13"])
     modulus = methods.mmb_modulus(points.compliance, chi, sheet)
@@ -166,22 +170,38 @@ def lines(table, answers, points, sheet):
                f"through their neighbours, which leaves up to {error:.2g} % of toughness (standard error)")
 
 
+def earlier(given, curve):
+    """True if an evaluation is there; that of another test is refused without --replace."""
+    place = os.path.join(given.out, NAMES[0])
+    if not os.path.lexists(place):
+        return False
+    before = {}
+    with contextlib.suppress(Unreadable):
+        before = read_json(place, MOST_RESULT)
+    same = (before.get("test") == given.test and os.path.realpath(str(before.get("file"))) == os.path.realpath(curve.path)
+            and before.get("specimen", given.specimen) == given.specimen)
+    if before and not same and not given.replace:
+        raise Trouble(f"{given.out} holds the evaluation of another test, {before.get('test')} of {before.get('file')}: --replace, or another --out")
+    return True
+
+
 def report(given, sheet, curve, answers, points, fitted):
     with loading():
         from specimens.pictures import draw
     table = at_points(answers, points, curve.path)
     complain_of_offsets({answer.name: answer.numbers for answer in answers}, sheet, points.modulus)
     complain_of_spread(table)
+    complain_of_toughness(table, curve)
     for line in lines(table, answers, points, sheet):
         say(line)
     counted = said_of_marks(curve.marks, sheet["notch"]) if given.test != "enf" else ""
     if counted:
         say(counted)
     bands = compared(given.test, fitted, answers)
-    replaced = os.path.lexists(os.path.join(given.out, NAMES[0]))
+    replaced = earlier(given, curve)
     held = hold(given.out)
     claim(given.out, NAMES, False)
-    about = {"test": given.test, "file": curve.path, "sheet": {key: text for key, text in given.sheet.items() if text},
+    about = {"test": given.test, "file": curve.path, "specimen": given.specimen, "sheet": {key: text for key, text in given.sheet.items() if text},
              "units": {"displacement": "m", "crack": "m", "load": "N", "compliance": "m/N", "modulus": "Pa", "toughness": "J/m2",
                        "numbers": {name: unit for answer in answers for name, unit in answer.units().items()}},
              "compliance": points.compliance, "modulus": points.modulus, "zero": points.zero, "noise": points.noise,

@@ -84,7 +84,7 @@ def opening():
     # With a soft machine, whose displacement is taken off.
     soft = raw(os.path.join(here, "soft.csv"), ["Extension (mm)", "Load (N)"], (x + 5e-3 * y, y))
     for more, right in ((["--compliance", "5e-3mm/N"], True), ([], False)):
-        code, shown, error = start(*words[:2], soft, *words[3:], "--E1", "140GPa", *more, "--out", out)
+        code, shown, error = start(*words[:2], soft, *words[3:], "--E1", "140GPa", *more, "--out", out, "--replace")
         value = evaluated(out)["toughness"]["effective crack"]["max"]
         expect(code == 0 and (abs(value / TOUGH - 1) < 1e-3) == right and ("machine and fixture take" in shown) == right,
                f"a soft machine {more}: {value} {error}")
@@ -94,7 +94,7 @@ def opening():
         json.dump({"units": ["mm", "N"], "parameters": [
             {"key": "laws[0].normal_toughness", "value": 0.28, "interval": [0.27, 0.29], "told": True},
             {"key": "laws[0].normal_strength", "value": 30.0, "interval": [None, None], "told": False}]}, file)
-    code, shown, error = start(*words, "--beside", here, "--out", out)
+    code, shown, error = start(*words, "--beside", here, "--out", out, "--replace")
     expect(code == 0 and "delam fit: laws[0].normal_toughness 280 J/m2, interval 270 to 290, of mode I" in shown and "strength" not in shown,
            f"a fit beside it: {shown} {error}")
     with open(os.path.join(here, "fit.json"), "w", encoding="utf-8") as file:
@@ -145,7 +145,7 @@ def flexure():
     expect("zero:" not in shown, "a line that begins at 0 is not told")
     w, p = bent(0.03, 0.05)
     slack = raw(os.path.join(here, "slack.csv"), ["Deflection (mm)", "Load (kN)"], (np.concatenate([[0.0], w + 0.3]), np.concatenate([[0.0], p / 1e3])))
-    code, again, error = start(*words[:2], slack, *words[3:], "--out", out)
+    code, again, error = start(*words[:2], slack, *words[3:], "--out", out, "--replace")
     expect(code == 0 and "zero: the initial line begins at a displacement of 0.3 mm" in again
            and abs(evaluated(out)["toughness"]["effective crack"]["max"] / 700 - 1) < 1e-4, f"slack is told, and counts for nothing: {again} {error}")
 
@@ -186,7 +186,29 @@ def wrong():
     expect_error(start("evaluate", "enf", path, *words, "--span", "80mm"), 2, "less than the half span")
     expect_error(start("evaluate", "dcb", path, *words, "--units", "N", "N"), 2, "N is no unit of length")
     expect_error(start("evaluate", "dcb", "/nowhere/a.csv", *words), 2, "No such file")
+    expect_error(start("evaluate", "mmb", path, "--width", "25mm", "--arm", "1.5mm", "--notch", "30mm", "--span", "100mm", "--lever", "16mm",
+                       "--E1", "140GPa", "--E2", "9GPa", "--G13", "5GPa", *words[6:]), 2, "--lever 16mm: more than a third of the half span, 16.67 mm")
     expect(not os.path.exists(os.path.join(here, "out")), "and nothing is written")
+
+
+def replaced():
+    """An evaluation of another test is not replaced without a word; loads in another unit are told by the toughness."""
+    here = folder()
+    x, y, marks = opened(0.004)
+    out, titles = os.path.join(here, "out"), ["Extension (mm)", "Load (N)", "Crack (mm)"]
+    one, other = (raw(os.path.join(here, name), titles, (x, y, marks)) for name in ("one.csv", "other.csv"))
+    words = ["--width", "25mm", "--arm", "1.5mm", "--notch", "50mm", "--out", out]
+    code, _, error = start("evaluate", "dcb", one, *words)
+    expect(code == 0 and "laminates have" not in error, error)
+    expect_error(start("evaluate", "dcb", other, *words), 2, "holds the evaluation of another test, dcb of .*one.csv: --replace, or another --out")
+    for file, more in ((one, []), (other, ["--replace"])):
+        code, shown, error = start("evaluate", "dcb", file, *words, *more)
+        expect(code == 0 and "in the place of an earlier evaluation" in shown, f"{more}: {shown} {error}")
+    keys = set(evaluated(out))
+    few = raw(os.path.join(here, "few.csv"), titles[:2], (x, y / 40))
+    code, _, error = start("evaluate", "dcb", few, *words, "--replace", "--E2", "0.2GPa", "--G13", "0.1GPa")
+    expect(code == 0 and "J/m2 at the largest load (effective crack), and laminates have 10 to 20000 J/m2" in error, f"too small: {error}")
+    expect(set(evaluated(out)) == keys and {point["name"] for point in evaluated(out)["points"]} == {"NL", "5 %", "max"}, "its keys are always the same")
 
 
 def noisy(seed, noise):
@@ -300,7 +322,7 @@ def effective():
     compliance = (3 * crack ** 3 + 2 * half ** 3) / (8 * B * H ** 3 * E1) + 3 * half / (10 * B * H * G13)
     load = np.linspace(0, np.sqrt(700.0 * 16 * B ** 2 * H ** 3 * E1 / 9) / crack, 80)
     path = raw(os.path.join(here, "enf.csv"), ["Deflection (mm)", "Load (N)"], (1e3 * compliance * load, load))
-    words = ["evaluate", "enf", path, "--width", "25mm", "--arm", "1.5mm", "--notch", "30mm", "--half-span", "50mm", "--out", out]
+    words = ["evaluate", "enf", path, "--width", "25mm", "--arm", "1.5mm", "--notch", "30mm", "--half-span", "50mm", "--out", out, "--replace"]
     code, _, error = start(*words, "--E1", "140GPa", "--E2", "9GPa", "--G13", "5GPa")
     value = evaluated(out)["toughness"]["effective crack"]["max"]
     expect(code == 0 and "warning: effective" not in error and abs(value / 700 - 1) < 1e-3, f"ENF with moduli: {value} {error}")
@@ -372,4 +394,5 @@ else:
     blocks()
     effective()
     implausible()
+    replaced()
 finish()

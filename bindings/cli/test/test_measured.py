@@ -76,6 +76,13 @@ def variants():
     plain = CurveData(FILES["a German machine"][0], GIVEN, ("", ""))
     expect(np.allclose(plain.x, X) and np.allclose(plain.y, Y * 1e-3) and plain.named_units == ["mm", "kN"],
            "without units of the scene the numbers stay")
+    two = file_of("Zeit (s),Weg (mm),Weg 2 (mm),Kraft (N)\n" + "".join(f"{k},{x},{2 * x},{y}\n" for k, (x, y) in enumerate(zip(X, Y))))
+    first, second = (CurveData(two, SimpleNamespace(**{**vars(GIVEN), "columns": names})) for names in (None, ["3", "Kraft"]))
+    expect('not taken: "Weg 2" in mm (--columns X Y)' in first.said and "not taken" not in second.said and np.allclose(second.x, 2 * first.x),
+           f"a column of the same kind is named, and numbers count from 1: {first.said} {second.said}")
+    bare = CurveData(file_of("".join(f"{k},{y},{x}\n" for k, (x, y) in enumerate(zip(X, Y)))), SimpleNamespace(**{**vars(GIVEN), "columns": ["3", "2"]}))
+    expect('x is column 3, y is column 2' in bare.said and np.allclose(bare.x, X), f"without titles, too: {bare.said}")
+    expect(found(read_test(file_of("Prüfzeit;Weg\ns;mm\n1,0;1,0\n2,0;2,0\n")), "time") == [0], "a German time")
     table = read_test(FILES["a column of cracks with gaps"][0])
     expect(found(table, "crack") == [], "an empty column is none")
 
@@ -98,6 +105,7 @@ def refusals():
     refused("a;b\n1;2\n2;x\n3;4\n", 'row 2 of the numbers (line 3) has "x"')
     refused("a;b\n1;2\n2;3;4\n3;4\n", "row 2 of the numbers (line 3) has 3 columns, 2 are expected")
     refused("a;b\n1;2\n2;3\n", 'there is no column "weg"; it has: a, b', columns=["weg", "b"])
+    refused("1;2\n2;3\n", 'there is no column "0"; it has: columns 1 to 2', columns=["0", "1"])
     refused("a;b\n2;2\n2;3\n", "must increase")
     refused("a;b\0\n2;2\n", "zero byte")
     refused("a;b\n1;2\n2;3\n", "--slack 3kg: a length is expected, such as 0.3mm", slack="3kg")

@@ -166,7 +166,7 @@ def cracks():
     expect(code == 0 and "a sheet apart (--marks FILE)" in error, f"without crack lengths the way to give them is told: {error}")
     both = file_of("Specimen;A\n" + text + "\nSpecimen;B\n" + text)
     expect_error(start(*words[:2], both, *words[3:]), 2, "the file has 2 tests: 1 \"A\" .*--specimen 1")
-    code, shown, error = start(*words[:2], both, *words[3:], "--specimen", "B")
+    code, shown, error = start(*words[:2], both, *words[3:], "--specimen", "B", "--replace")
     expect(code == 0 and 'specimen "B" of 2 tests' in shown, f"a specimen by its name: {shown} {error}")
     sheet = Sheet(file_of(by_time, name="marks.csv"), SimpleNamespace(crack="", units=None))
     expect(len(sheet.crack) == 9, "a sheet is read")
@@ -203,6 +203,7 @@ def doubtful_cracks():
     x, p = float(lines[100][1]), 1e3 * float(lines[100][2])
     back = [f"{part * x:.6f};{part * p:.6f};{66 if part == 0.5 else ''}" for part in (0.8, 0.5, 0.8)]
     test = file_of("\n".join(given[:102] + back + given[102:]) + "\n")
+    words += ["--replace"]
     code, shown, error = start(*words[:2], test, *words[3:])
     expect(code == 0 and "at 9 points; 1 mark on an unloading is left out" in shown and "modified beam theory: visual 280" in shown,
            f"a mark on an unloading: {shown} {error}")

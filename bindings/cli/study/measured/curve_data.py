@@ -6,7 +6,7 @@ from _pictures.input_file import quoted
 from analyses import LEAST, MOST
 from command import Trouble
 from measured.broken import broken_at, said_of_break
-from measured.columns import choose, label
+from measured.columns import choose, label, rivals
 from measured.loops import Way
 from measured.slack import find_slack
 from measured.one_test import read_test
@@ -82,6 +82,7 @@ class CurveData:
         x, y = choose(table, given.columns, "time" if given.x == "time" else "displacement")
         self.names = [label(table, x), label(table, y)]
         said = [f"x is {self.names[0]}, y is {self.names[1]}", *table.said]
+        said[1:1] = [] if given.columns else rivals(table, (x, y))
         self.force_unit = table.units[y]
         self.named_units = [unit for unit in (table.units[x], table.units[y]) if kind_of(unit)[0]]
         nameless = [name for name, k in zip("xy", (x, y)) if not table.units[k]]

@@ -4,6 +4,7 @@ import numpy as np
 
 from command import Trouble, complain
 from specimens import methods
+from specimens.usual import TOUGHNESS
 
 # A crack that is longer than the notch by the first part makes the specimen softer by the second part of that at least: by 2.8
 # times in a DCB, and by half in an MMB with a lever of the half span. Half and twice of both refuse the same marks in test_tables.py.
@@ -28,19 +29,23 @@ def _modulus_matches(modulus_at, compliance, first, sheet):
     return middle
 
 
-def marked(curve, points, sheet, given, modulus_at):
-    """Displacement, load without noise and crack length of the marks; refused where they are not those of this notch.
-    modulus_at: the bending modulus of a compliance and a sheet."""
-    marks = curve.marks.copy()
-    if not len(marks):
-        return marks
-    path = given.marks or curve.path
-    if not marks[:, 2].max() > sheet["notch"]:
+def require_lengths(curve, sheet, given):
+    """Refuses marks that are no crack lengths from the line of load on, or not those of this notch."""
+    marks, path = curve.marks, given.marks or curve.path
+    if len(marks) and not marks[:, 2].max() > sheet["notch"]:
         raise Trouble(f"{path}: the cracks of the file, up to {1e3 * marks[:, 2].max():g} mm, are not longer than --notch "
                       f"{given.sheet['notch']}, from where they grow: lengths from the line of load are expected, no growths")
-    if marks[0, 2] < SHORTER * sheet["notch"]:
+    if len(marks) and marks[0, 2] < SHORTER * sheet["notch"]:
         raise Trouble(f"{path}: the first crack is {1e3 * marks[0, 2]:.4g} mm long, --notch is {given.sheet['notch']}: lengths from the "
                       "line of load are expected, no growths: add the notch to them")
+
+
+def marked(curve, points, sheet, given, modulus_at):
+    """Displacement, load without noise and crack length of the marks; refused where the compliance is still that of the
+    notch, and told where it is that of another crack. modulus_at: the bending modulus of a compliance and a sheet."""
+    marks, path = curve.marks.copy(), given.marks or curve.path
+    if not len(marks):
+        return marks
     longest = marks[np.argmax(marks[:, 2])]
     grown, softer = longest[2] / sheet["notch"] - 1, (longest[0] - points.zero) / longest[1] / points.compliance - 1
     if grown > SURELY_GROWN and not softer > LEAST_SOFTER * grown:
@@ -92,3 +97,11 @@ def complain_of_spread(table):
         (low, one), (high, other) = at_max[0], at_max[-1]
         complain(f"warning: the methods differ by {100 * (high / low - 1):.0f} % at the largest load: {low:.4g} J/m2 ({one}), {high:.4g} "
                  f"J/m2 ({other}): width, thickness, notch, crack lengths or --E1 do not fit together")
+
+
+def complain_of_toughness(table, curve):
+    """Says which toughness no laminate has."""
+    odd = [(rates["max"], name) for name, rates in table.items() if not TOUGHNESS[0] <= rates["max"] <= TOUGHNESS[1]]
+    if odd:
+        complain(f"warning: {curve.path}: {odd[0][0]:.4g} J/m2 at the largest load ({odd[0][1]}), and laminates have {TOUGHNESS[0]:g} to "
+                 f"{TOUGHNESS[1]:g} J/m2: is the load in another unit ({curve.read_as}; --units), or of another column (--columns)?")

@@ -4,7 +4,7 @@ import numpy as np
 
 from command import Trouble, complain, say
 from measured.broken import broken_at, said_of_break
-from measured.columns import choose, label
+from measured.columns import choose, label, rivals
 from measured.curve_data import left_out, upright
 from measured.loops import Way
 from measured.one_test import read_test
@@ -21,7 +21,7 @@ class Curve:
         """apart: a file of crack lengths, or ""."""
         table = read_test(path, given.specimen[0] if given.specimen else "")
         x, y = choose(table, given.columns)
-        said = [f"displacement is {label(table, x)}, load is {label(table, y)}", *table.said]
+        said = [f"displacement is {label(table, x)}, load is {label(table, y)}", *([] if given.columns else rivals(table, (x, y))), *table.said]
         self.names = [option or table.units[k] for k, option in zip((x, y), given.units or ["", ""])]
         units = [size_of(table, k, name, kind) for k, name, kind in zip((x, y), self.names, ("length", "force"))]
         columns = [table.columns[k] * size for k, size in zip((x, y), units)]

@@ -52,6 +52,9 @@ def sheet_of(given):
         raise Trouble(f"{given.test} needs {'; '.join(missing)}")
     if "span" in sheet and not sheet["notch"] < 0.5 * sheet["span"]:
         raise Trouble(f"--notch {given.sheet['notch']}: less than the half span of {500 * sheet['span']:g} mm is expected")
+    if "lever" in sheet and not sheet["lever"] > sheet["span"] / 6:
+        raise Trouble(f"--lever {given.sheet['lever']}: more than a third of the half span, {1e3 * sheet['span'] / 6:.4g} mm, is expected: below, "
+                      "the lever presses the arms together, and there is no mode I")
     if "block-pin" in sheet and given.test != "dcb":
         raise Trouble("--block-pin is of dcb alone")
     return sheet
