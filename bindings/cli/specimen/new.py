@@ -5,6 +5,7 @@ import json
 import math
 import os
 import re
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -341,7 +342,7 @@ def main():
             print(scenes.theory(of).replace("# ", "theory    ", 1).replace("# ", "          ").rstrip())
             if standards.remarks(of):
                 print(proposals.wrapped(standards.remarks(of), "growth    ", 10 * " "))
-        print(f"wrote     {given['out']}: read it, then run it with delam run {given['out']} --out FOLDER")
+        print(f"wrote     {given['out']}: read it, then run it with delam run {shlex.quote(given['out'])} --out FOLDER")
     return command.DONE
 
 

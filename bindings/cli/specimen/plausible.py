@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Numbers of a sheet that are possible and that no usual specimen has: a prefix too many or too few."""
 
+from specimens.usual import TOUGHNESS
+
 LAMINATES, FIBRES = ("dcb", "adcb", "enf", "4enf", "mmb", "slb", "laminate"), ("fibre",)
 BEAMS = LAMINATES[:-1]
 # Names, kinds, the unit for people and how many of it are one in mm, N and MPa, what is possible, what is usual. A number
 # beyond the first is told, and the prefix that brings it into the second is proposed. Possible are a tenth of what is usual and
 # less, to ten times of it, so that an odd material is not told and a factor of 1000 always is.
 ROWS = (
-    (("GIc", "GIIc"), LAMINATES, "J/m2", 1e3, (10, 2e4), (40, 6e3)),
+    (("GIc", "GIIc"), LAMINATES, "J/m2", 1e3, TOUGHNESS, (40, 6e3)),
     (("GIc", "GIIc"), FIBRES, "J/m2", 1e3, (0.05, 2e3), (0.5, 300)),
     (("E1",), LAMINATES, "GPa", 1e-3, (2, 1000), (10, 600)),
     (("E2", "G12"), LAMINATES, "GPa", 1e-3, (0.2, 120), (1, 90)),

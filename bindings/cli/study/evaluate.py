@@ -5,6 +5,7 @@
 Reads the raw file of a test machine as `delam fit` does. Writes DIR/evaluate.json, DIR/r-curve.csv and
 DIR/evaluate.png; the lines say the toughness of each method at each point, beside that of a fit (--beside).
 """
+import contextlib
 import json
 import os
 
@@ -19,6 +20,7 @@ require("numpy", "matplotlib")
 
 import numpy as np  # noqa: E402
 
+from _pictures.input_file import MOST_RESULT, Unreadable, read_json  # noqa: E402
 from command import complain, loading, say  # noqa: E402
 from analyses import DONE, Trouble, given_words, hold, run_study  # noqa: E402
 from measured.units import kind_of, quantity  # noqa: E402
@@ -26,46 +28,21 @@ from own_files import claim, write_file  # noqa: E402
 from specimens import methods  # noqa: E402
 from specimens.answer import Answer  # noqa: E402
 from specimens.beside import beside, compared  # noqa: E402
+from specimens.checks import complain_of_offsets, complain_of_spread, complain_of_toughness, marked, require_lengths, said_of_marks  # noqa: E402
 from specimens.curve import Curve  # noqa: E402
 from specimens.points import Point, Points  # noqa: E402
 from specimens.sheet import require_growing, require_modulus, sheet_of  # noqa: E402
 
 LEAST_MARKS = 3  # crack lengths for a line through their compliances; ISO 15024 asks for more
-# A crack that is longer than the notch by the first part makes the specimen softer by the second part of that at least: by 2.8
-# times in a DCB, and by half in an MMB with a lever of the half span. Half and twice of both refuse the same marks in test_tables.py.
-SURELY_GROWN, LEAST_SOFTER = 0.05, 0.2
 NAMES = ["evaluate.json", "r-curve.csv", "evaluate.png"]
-
-
-def marked(curve, points, sheet, given):
-    """Displacement, load without noise and crack length of the marks; refused where they are not those of this notch."""
-    marks = curve.marks.copy()
-    if not len(marks):
-        return marks
-    if not marks[-1, 2] > sheet["notch"]:
-        raise Trouble(f"{curve.path}: the cracks of the file, up to {1e3 * marks[:, 2].max():g} mm, are not longer than --notch "
-                      f"{given.sheet['notch']}, from where they grow")
-    if not marks[0, 2] < 2 * sheet["notch"]:
-        complain(f"warning: {curve.path}: the first crack of the file is {1e3 * marks[0, 2]:g} mm long, --notch is "
-                 f"{given.sheet['notch']}: are both measured from the line of load?")
-    longest = marks[np.argmax(marks[:, 2])]
-    grown, softer = longest[2] / sheet["notch"] - 1, (longest[0] - points.zero) / longest[1] / points.compliance - 1
-    if grown > SURELY_GROWN and not softer > LEAST_SOFTER * grown:
-        raise Trouble(f"{given.marks or curve.path}: the crack of {1e3 * longest[2]:g} mm is marked at a displacement of {1e3 * longest[0]:.4g} "
-                      f"mm, where the compliance is still that of the notch of {given.sheet['notch']}: is the time or the displacement of "
-                      "the marks in another unit, or do they belong to another test?")
-    # A mark in an unloading lies off the curve, and keeps its load.
-    load = np.interp(marks[:, 0], points.displacement, points.load)
-    near = np.abs(load - marks[:, 1]) <= 4 * points.noise
-    marks[near, 1] = load[near]
-    return marks
 
 
 def evaluate_dcb(curve, sheet, given):
     """Answers of the methods, and the points."""
+    require_lengths(curve, sheet, given)
     points = Points(curve.displacement, curve.load, curve.path)
-    marks = marked(curve, points, sheet, given)
-    require_modulus(lambda one: methods.dcb_modulus(points.compliance, one)[0], points.compliance, sheet, curve)
+    points.modulus = require_modulus(lambda one: methods.dcb_modulus(points.compliance, one)[0], points.compliance, sheet, curve, "dcb")
+    marks = marked(curve, points, sheet, given, lambda compliance, one: methods.dcb_modulus(compliance, one)[0])
     answers, offset = [], 0.0
     if len(marks) >= LEAST_MARKS:
         d, p, a = marks[:, 0] - points.zero, marks[:, 1], marks[:, 2]
@@ -111,7 +88,7 @@ def calibrated(curve, points, sheet, given):
         complain(f"warning: compliance calibration of ASTM D7905 needs --calibration LENGTH=FILE for two more crack lengths; "
                  f"{len(cracks) - 1} given")
         return []
-    require_growing(cracks, compliances, "--calibration", "do the files belong to other lengths?")
+    require_growing(cracks, compliances, "--calibration", "do the files belong to other lengths?", each=True)
     intercept, m = methods.enf_calibration(cracks, compliances)
     return [Answer("compliance calibration", curve.displacement, np.full(len(curve.load), sheet["notch"]),
                    methods.enf_calibrated(points.load, m, sheet), lambda d, p, a: methods.enf_calibrated(p, m, sheet),
@@ -120,7 +97,7 @@ def calibrated(curve, points, sheet, given):
 
 def evaluate_enf(curve, sheet, given):
     points = Points(curve.displacement, curve.load, curve.path)
-    require_modulus(lambda one: methods.enf_modulus(points.compliance, one)[0], points.compliance, sheet, curve)
+    points.modulus = require_modulus(lambda one: methods.enf_modulus(points.compliance, one)[0], points.compliance, sheet, curve, "enf")
     answers = calibrated(curve, points, sheet, given)
     if "G13" not in sheet:
         complain("warning: effective crack: without --G13 the shear of the beam counts as crack if --E1 is given (these values are "
@@ -135,11 +112,12 @@ def evaluate_enf(curve, sheet, given):
 
 
 def evaluate_mmb(curve, sheet, given):
+    require_lengths(curve, sheet, given)
     points = Points(curve.displacement, curve.load, curve.path)
-    marks = marked(curve, points, sheet, given)
     chi = methods.chi(sheet["E1"], sheet["E2"], sheet["G13"])
     modulus = methods.mmb_modulus(points.compliance, chi, sheet)
-    require_modulus(lambda one: methods.mmb_modulus(points.compliance, chi, one), points.compliance, sheet, curve)
+    points.modulus = require_modulus(lambda one: methods.mmb_modulus(points.compliance, chi, one), points.compliance, sheet, curve, "mmb")
+    marks = marked(curve, points, sheet, given, lambda compliance, one: methods.mmb_modulus(compliance, chi, one))
     if len(marks):
         points.add_visual(marks[np.flatnonzero(marks[:, 2] > sheet["notch"])[0]])
     points.place_cracks(sheet["notch"], marks)
@@ -171,17 +149,20 @@ def at_points(answers, points, path):
     return table
 
 
-def lines(table, answers, points):
+def lines(table, answers, points, sheet):
     """What the command says of the methods."""
     for answer in answers:
-        said = ", ".join(f"{point.partition(' (')[0]} {rate:.4g}" for point, rate in table[answer.name].items())
+        said = ", ".join(f"{point} {rate:.4g}" for point, rate in table[answer.name].items())
         mean = answer.propagation()
         said += f", propagation {mean[0]:.4g} +- {mean[1]:.2g} of {mean[2]} marks" if mean else ""
         yield f"{answer.name}: {said} J/m2" + (f" ({', '.join(answer.words())})" if answer.numbers else "")
+    yield f"modulus: the initial compliance of {1e3 * points.compliance:.4g} mm/N gives a bending modulus of {points.modulus / 1e9:.4g} GPa" + (
+        f", {points.modulus / sheet['E1']:.2f} of --E1" if "E1" in sheet else "") + (
+            "" if {"E2", "G13"} <= sheet.keys() else " (without --E2 and --G13 the rotation of the arms counts as bending)")
     if abs(points.zero) > 0.01 * points.displacement[points.top]:
         yield (f"zero: the initial line begins at a displacement of {1e3 * points.zero:.4g} mm (slack or preload of the fixture), "
                "from which methods count")
-    if any(point.name.startswith("5 % (") for point in points.points):
+    if any(point.after_largest_load for point in points.points):
         yield "5 %: the curve reaches this offset after its largest load, which is taken"
     if points.noise > 1e-3 * points.points[-1].load:
         error = 200 * max(p.error / p.load for p in points.points)
@@ -189,20 +170,41 @@ def lines(table, answers, points):
                f"through their neighbours, which leaves up to {error:.2g} % of toughness (standard error)")
 
 
-def report(given, curve, answers, points, fitted):
+def earlier(given, curve):
+    """True if an evaluation is there; that of another test is refused without --replace."""
+    place = os.path.join(given.out, NAMES[0])
+    if not os.path.lexists(place):
+        return False
+    before = {}
+    with contextlib.suppress(Unreadable):
+        before = read_json(place, MOST_RESULT)
+    same = (before.get("test") == given.test and os.path.realpath(str(before.get("file"))) == os.path.realpath(curve.path)
+            and before.get("specimen", given.specimen) == given.specimen)
+    if before and not same and not given.replace:
+        raise Trouble(f"{given.out} holds the evaluation of another test, {before.get('test')} of {before.get('file')}: --replace, or another --out")
+    return True
+
+
+def report(given, sheet, curve, answers, points, fitted):
     with loading():
         from specimens.pictures import draw
     table = at_points(answers, points, curve.path)
-    for line in lines(table, answers, points):
+    complain_of_offsets({answer.name: answer.numbers for answer in answers}, sheet, points.modulus)
+    complain_of_spread(table)
+    complain_of_toughness(table, curve)
+    for line in lines(table, answers, points, sheet):
         say(line)
+    counted = said_of_marks(curve.marks, sheet["notch"]) if given.test != "enf" else ""
+    if counted:
+        say(counted)
     bands = compared(given.test, fitted, answers)
-    replaced = os.path.lexists(os.path.join(given.out, NAMES[0]))
+    replaced = earlier(given, curve)
     held = hold(given.out)
     claim(given.out, NAMES, False)
-    about = {"test": given.test, "file": curve.path, "sheet": {key: text for key, text in given.sheet.items() if text},
-             "units": {"displacement": "m", "crack": "m", "load": "N", "compliance": "m/N", "toughness": "J/m2",
+    about = {"test": given.test, "file": curve.path, "specimen": given.specimen, "sheet": {key: text for key, text in given.sheet.items() if text},
+             "units": {"displacement": "m", "crack": "m", "load": "N", "compliance": "m/N", "modulus": "Pa", "toughness": "J/m2",
                        "numbers": {name: unit for answer in answers for name, unit in answer.units().items()}},
-             "compliance": points.compliance, "zero": points.zero, "noise": points.noise,
+             "compliance": points.compliance, "modulus": points.modulus, "zero": points.zero, "noise": points.noise,
              "points": [vars(p) | {"crack": p.crack if p.crack == p.crack else None} for p in points.points],
              "toughness": table, "numbers": {answer.name: answer.numbers for answer in answers},
              "propagation": {answer.name: dict(zip(("mean", "deviation", "marks"), answer.propagation())) for answer in answers
@@ -224,10 +226,10 @@ def main():
     given = given_words()
     sheet = sheet_of(given)
     given.machine = sheet.pop("compliance", 0.0)
-    fitted = beside(given.beside) if given.beside else []
+    fitted = beside(given.beside, given.data[0]) if given.beside else []
     curve = Curve(given.data[0], given, given.marks)
     answers, points = TESTS[given.test](curve, sheet, given)
-    report(given, curve, answers, points, fitted)
+    report(given, sheet, curve, answers, points, fitted)
     return DONE
 
 

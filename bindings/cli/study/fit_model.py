@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a fit compares with the data: analyses at given parameters, with the derivatives by those that are numbers of
 laws, which the analysis itself has ([output] sensitivities)."""
+import difflib
 import os
 import re
 import tomllib
@@ -69,10 +70,7 @@ class Parameter:
                 if answer.errors and answer.errors[0]["key"] == self.path}
         if len(said) == 1:
             text = said.pop().removeprefix("--set: ")
-            numbers = numbers_of_laws(read_scene(file))
-            if numbers and "." not in self.path:
-                raise Trouble(f"--parameters {text.partition(';')[0]}; numbers of the laws of {file}: {', '.join(numbers)}")
-            raise Trouble(f"--parameters {text}")
+            raise Trouble(f"--parameters {with_hint(text, self.path, file)}")
 
 
 def numbers_of_laws(scene):
@@ -81,6 +79,15 @@ def numbers_of_laws(scene):
     keys = [f"laws.{k}.{key}" for k, law in enumerate(laws if isinstance(laws, list) else []) if isinstance(law, dict)
             for key in law if value_at(law, key) is not None]
     return sorted(keys, key=lambda key: not key.endswith("toughness"))
+
+
+def with_hint(text, path, file):
+    """What is said of a key that is none, with the number of a law of the scene that is meant, or all of them."""
+    numbers = numbers_of_laws(read_scene(file))
+    near = difflib.get_close_matches(word_of(path), numbers, 1, 0.8)
+    if near:
+        return f"{text.partition(';')[0]} (did you mean {near[0]}?)"
+    return f"{text.partition(';')[0]}; numbers of the laws of {file}: {', '.join(numbers)}" if numbers and "." not in path else text
 
 
 def word_of(path):
@@ -130,6 +137,13 @@ def range_of(x_name, scene, times):
     values = np.interp(at, pattern["times"], pattern["values"])
     falls = np.flatnonzero(np.diff(values) <= 0)
     return values[0], values[falls[0] if falls.size else -1]
+
+
+def kind_of_new(path):
+    """The test for which `delam new` has written a scene, "mmb" for example; nothing where something else has."""
+    with open(path, encoding="utf-8", errors="replace") as file:
+        begin = file.read(len(OF_NEW) + 16)
+    return begin[len(OF_NEW):].partition(" ")[0] if begin.startswith(OF_NEW) else ""
 
 
 class Infeasible(Exception):
@@ -277,10 +291,9 @@ class Model:
             raise Trouble(said + "leave out the points before it, or --slack and --x-scale move and scale it")
         farther = ("give it a later end ([time] end)" if self.x_name == "time" else
                    "let the values of its [[patterns]] go on to there")
-        with open(self.files[which], encoding="utf-8", errors="replace") as file:
-            if file.read(len(OF_NEW)) == OF_NEW:
-                farther = ("write the scene with a larger growth of the crack (`delam new .. --growth`) or, if that is not "
-                           "allowed, with a larger toughness")
+        if kind_of_new(self.files[which]):
+            farther = ("write the scene with a larger growth of the crack (`delam new .. --growth`) or, if that is not "
+                       "allowed, with a larger toughness")
         raise Trouble(said + farther + ", or leave out the points behind it; are the units the same? Else --x-scale is a "
                       "factor on it")
 

@@ -10,6 +10,7 @@ import csv
 import io
 import json
 import os
+import re
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -28,13 +29,15 @@ import numpy as np  # noqa: E402
 from _pictures.input_file import MOST_MESH, MOST_SCENE, MOST_SWEEP, Unreadable, read_bytes, read_json  # noqa: E402
 from command import complain, loading, on_interrupt, say  # noqa: E402
 from analyses import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Check, Trouble, analyse, end_all,  # noqa: E402
-                     given_words, hold, last_words, read_about, read_history, refuse_foreign_log,  # noqa: E402
-                     refuse_set, run_study, setting)
+                     given_words, hold, keep_warnings, last_words, read_about, read_history, refuse_foreign_log,  # noqa: E402
+                     refuse_set, run_study, setting, warnings_of)
+from fit_model import with_hint  # noqa: E402
+from measured.units import unit_of_key  # noqa: E402
 from own_files import claim, discard, write_file  # noqa: E402
 from variations import Variation, grid, latin  # noqa: E402
 
 RESULTS = ["exit_code", "steps", "peak_reaction", "load_at_peak", "last_reaction", "dissipated", "released", "jumps",
-           "not_converged", "message"]
+           "not_converged", "warnings", "message"]
 FILES = ["sweep.json", "table.csv", "curves.png", "response.png"]
 OF_A_SWEEP = {"scene": "another text of the scene file", "set": "other --set", "vary": "other keys",
               "points": "other values", "scene_hash": "another mesh"}  # members of sweep.json
@@ -55,7 +58,9 @@ class Sweep:
         self.points = grid(self.variations) if given.latin == 0 else latin(self.variations, given.latin, given.seed)
         self.known = None  # what sweep.json says of the sweep before in this folder
         self.ended = threading.Event()
-        self.rows = {}
+        self.rows, self.warnings = {}, {}  # by the number of the run
+        self.units = ("", "")  # of length and force; a result has them
+        self.unit = ""  # of the reaction
         self.lock = threading.Lock()
         self.began = time.monotonic()
 
@@ -95,8 +100,15 @@ class Sweep:
                 # The mesh's file is no part of the text.
                 self.definition["scene_hash"] = answer.found.get("scene_hash")
                 return
-            first = first or answer.words
+            first = first or self.words_of_error(answer)
         raise Trouble(f"no run is a scene, e.g. {first}")
+
+    def words_of_error(self, answer):
+        """Of a key that is varied, as it was given, and with the one that may be meant."""
+        key = answer.errors[0]["key"]
+        if key not in [v.path for v in self.variations] or self.scene.lower().endswith(".inp"):
+            return answer.words
+        return f"--vary {with_hint(answer.words.removeprefix('--set: '), key, self.scene)}"
 
     def define(self, replace):
         """Notes what the sweep is."""
@@ -146,7 +158,11 @@ class Sweep:
         out = self.folder(number)
         if self.ended.is_set():
             return
-        code = analyse(self.scene, out, self.settings(self.points[number]), resume=self.can_resume(out))
+        resume = self.can_resume(out)
+        before = warnings_of(out) if resume else []
+        code = analyse(self.scene, out, self.settings(self.points[number]), resume=resume)
+        now = warnings_of(out)
+        keep_warnings(out, [text for text in before if text not in now])
         with self.lock:
             if code == INTERRUPTED or self.ended.is_set():
                 return
@@ -154,13 +170,13 @@ class Sweep:
             self.write_table()
             done, all_of_them = len(self.rows), len(self.points)
             left = (time.monotonic() - self.began) / done * (all_of_them - done)
-            values = ", ".join(f"{v.path} {value:.6g}" if isinstance(value, float) else f"{v.path} {value}"
+            values = ", ".join((f"{v.path} {value:.6g}" if isinstance(value, float) else f"{v.path} {value}") + unit_of_key(v.path, self.units)
                                for v, value in zip(self.variations, self.points[number]))
             say(f"run {done}/{all_of_them}  {values}  {self.words(number)}  left {left:.0f} s")
 
     def words(self, number):
         row = self.rows[number]
-        return row["message"] or f"peak {row['peak_reaction']:.4g}"
+        return row["message"] or f"peak {row['peak_reaction']:.4g}{self.unit}"
 
     def row(self, number, code):
         row = dict.fromkeys(RESULTS, "")
@@ -170,14 +186,29 @@ class Sweep:
             row["message"] = last_words(out)
             return row
         history, about = read_history(out), read_about(out)
+        self.units = tuple(about["units"][key] for key in ("length", "force"))
+        if all(self.units):
+            self.unit = f" {self.units[1]}" + f"/{self.units[0]}" * (about["scene"]["dimension"] == 2)
+        self.warnings[number] = warnings_of(out)
         loads = [name for name in history if name == "load" or name.startswith("load_")]
         reaction = history[loads[0].replace("load", "reaction", 1)]
         peak = int(np.argmax(np.abs(reaction)))
         row.update(steps=len(reaction) - 1, peak_reaction=reaction[peak], load_at_peak=history[loads[0]][peak],
                    last_reaction=reaction[-1], dissipated=history["dissipated"][-1],
                    released=history["released"][-1], jumps=int(history["jumps"].sum()),
-                   not_converged=len(about["not_converged"]))
+                   not_converged=len(about["not_converged"]), warnings=len(self.warnings[number]))
         return row
+
+    def said_of_warnings(self):
+        """A line for each kind of warning: which runs have it, and what it says in the first of them."""
+        kinds = {}
+        for number in sorted(self.warnings):
+            for text in self.warnings[number]:
+                kinds.setdefault(re.sub(r"[-+]?[0-9][0-9.e+-]*", "#", text), (text, []))[1].append(number + 1)
+        for text, runs in kinds.values():
+            runs = sorted(set(runs))
+            which = ", ".join(map(str, runs[:8])) + (", .." if len(runs) > 8 else "")
+            yield f"warning of {len(runs)} of {len(self.points)} runs ({which}): {text}"
 
     def write_table(self):
         text = io.StringIO()
@@ -224,6 +255,8 @@ def main():
         draw_response(sweep, about)
         written += ["curves.png", "response.png"]
     held.close()
+    for line in sweep.said_of_warnings():
+        say(line)
     failed = len(sweep.points) - len(good)
     if not good and all(row["exit_code"] == WRONG for row in sweep.rows.values()):
         raise Trouble(f"no run is a scene, e.g. {sweep.rows[0]['message'].removeprefix('delam: ')}")

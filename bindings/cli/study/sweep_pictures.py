@@ -4,7 +4,8 @@ import os
 
 import numpy as np
 
-from picture_style import colours_of, name_axis, plt, save, scales_of
+from measured.units import unit_of_key
+from picture_style import axis, colours_of, name_axis, plt, save, scales_of
 
 
 def numbers(sweep, which):
@@ -14,6 +15,11 @@ def numbers(sweep, which):
         return np.array(values, float), None
     words = list(dict.fromkeys(map(str, values)))
     return np.array([words.index(str(value)) for value in values], float), words
+
+
+def named(sweep, key):
+    """A key with the unit of its numbers, where the scene names units."""
+    return axis(key, unit_of_key(key, sweep.units).strip())
 
 
 def draw_curves(sweep, histories, about):
@@ -27,7 +33,7 @@ def draw_curves(sweep, histories, about):
         ax.plot(history[load], history[load.replace("load", "reaction", 1)], color=colours[number], linewidth=1.2)
     name_axis(ax.xaxis, "load", scales_of(about, "length"))
     name_axis(ax.yaxis, "reaction", scales_of(about, "force"))
-    bar = figure.colorbar(scale, ax=ax, label=name)
+    bar = figure.colorbar(scale, ax=ax, label=named(sweep, name))
     if words:
         bar.set_ticks(range(len(words)), labels=words)
     others = ", ".join(v.path for v in sweep.variations[1:])
@@ -48,7 +54,7 @@ def draw_response(sweep, about):
         at = values[good]
         order = np.argsort(at, kind="stable")
         ax.plot(at[order], peaks[order], "o-" if count == 1 else "o", color="#1f5a99", markersize=4.5)
-        ax.set_xlabel(sweep.variations[which].path)
+        ax.set_xlabel(named(sweep, sweep.variations[which].path))
         if sweep.variations[which].log:
             ax.set_xscale("log")
         if words:

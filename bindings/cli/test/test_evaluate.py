@@ -5,6 +5,7 @@ with noise."""
 import csv
 import json
 import os
+import re
 import sys
 
 import numpy as np
@@ -83,7 +84,7 @@ def opening():
     # With a soft machine, whose displacement is taken off.
     soft = raw(os.path.join(here, "soft.csv"), ["Extension (mm)", "Load (N)"], (x + 5e-3 * y, y))
     for more, right in ((["--compliance", "5e-3mm/N"], True), ([], False)):
-        code, shown, error = start(*words[:2], soft, *words[3:], "--E1", "140GPa", *more, "--out", out)
+        code, shown, error = start(*words[:2], soft, *words[3:], "--E1", "140GPa", *more, "--out", out, "--replace")
         value = evaluated(out)["toughness"]["effective crack"]["max"]
         expect(code == 0 and (abs(value / TOUGH - 1) < 1e-3) == right and ("machine and fixture take" in shown) == right,
                f"a soft machine {more}: {value} {error}")
@@ -93,7 +94,7 @@ def opening():
         json.dump({"units": ["mm", "N"], "parameters": [
             {"key": "laws[0].normal_toughness", "value": 0.28, "interval": [0.27, 0.29], "told": True},
             {"key": "laws[0].normal_strength", "value": 30.0, "interval": [None, None], "told": False}]}, file)
-    code, shown, error = start(*words, "--beside", here, "--out", out)
+    code, shown, error = start(*words, "--beside", here, "--out", out, "--replace")
     expect(code == 0 and "delam fit: laws[0].normal_toughness 280 J/m2, interval 270 to 290, of mode I" in shown and "strength" not in shown,
            f"a fit beside it: {shown} {error}")
     with open(os.path.join(here, "fit.json"), "w", encoding="utf-8") as file:
@@ -103,6 +104,11 @@ def opening():
     code, again, error = start(*words, "--beside", here, "--out", out)
     expect(code == 0 and "280 J/m2, interval 250 to 310, of mode I" in again, f"with errors in what is held: {again} {error}")
     expect("in the place of an earlier evaluation" in shown, "an earlier evaluation that is replaced is told")
+    with open(os.path.join(here, "fit.json"), "w", encoding="utf-8") as file:
+        json.dump({"units": ["mm", "N"], "data": ["other/dcb-2.csv"], "describes": False, "parameters": []}, file)
+    code, _, error = start(*words, "--beside", here, "--out", out)
+    expect(code == 0 and "it is the fit of dcb-2.csv, and this is dcb.csv" in error and "its model does not describe its curve" in error,
+           f"a fit of another file: {error}")
     # A toughness of another mode is told, and does not stand beside.
     with open(os.path.join(here, "fit.json"), "w", encoding="utf-8") as file:
         json.dump({"units": ["mm", "N"], "parameters": [
@@ -139,7 +145,7 @@ def flexure():
     expect("zero:" not in shown, "a line that begins at 0 is not told")
     w, p = bent(0.03, 0.05)
     slack = raw(os.path.join(here, "slack.csv"), ["Deflection (mm)", "Load (kN)"], (np.concatenate([[0.0], w + 0.3]), np.concatenate([[0.0], p / 1e3])))
-    code, again, error = start(*words[:2], slack, *words[3:], "--out", out)
+    code, again, error = start(*words[:2], slack, *words[3:], "--out", out, "--replace")
     expect(code == 0 and "zero: the initial line begins at a displacement of 0.3 mm" in again
            and abs(evaluated(out)["toughness"]["effective crack"]["max"] / 700 - 1) < 1e-4, f"slack is told, and counts for nothing: {again} {error}")
 
@@ -180,7 +186,29 @@ def wrong():
     expect_error(start("evaluate", "enf", path, *words, "--span", "80mm"), 2, "less than the half span")
     expect_error(start("evaluate", "dcb", path, *words, "--units", "N", "N"), 2, "N is no unit of length")
     expect_error(start("evaluate", "dcb", "/nowhere/a.csv", *words), 2, "No such file")
+    expect_error(start("evaluate", "mmb", path, "--width", "25mm", "--arm", "1.5mm", "--notch", "30mm", "--span", "100mm", "--lever", "16mm",
+                       "--E1", "140GPa", "--E2", "9GPa", "--G13", "5GPa", *words[6:]), 2, "--lever 16mm: more than a third of the half span, 16.67 mm")
     expect(not os.path.exists(os.path.join(here, "out")), "and nothing is written")
+
+
+def replaced():
+    """An evaluation of another test is not replaced without a word; loads in another unit are told by the toughness."""
+    here = folder()
+    x, y, marks = opened(0.004)
+    out, titles = os.path.join(here, "out"), ["Extension (mm)", "Load (N)", "Crack (mm)"]
+    one, other = (raw(os.path.join(here, name), titles, (x, y, marks)) for name in ("one.csv", "other.csv"))
+    words = ["--width", "25mm", "--arm", "1.5mm", "--notch", "50mm", "--out", out]
+    code, _, error = start("evaluate", "dcb", one, *words)
+    expect(code == 0 and "laminates have" not in error, error)
+    expect_error(start("evaluate", "dcb", other, *words), 2, "holds the evaluation of another test, dcb of .*one.csv: --replace, or another --out")
+    for file, more in ((one, []), (other, ["--replace"])):
+        code, shown, error = start("evaluate", "dcb", file, *words, *more)
+        expect(code == 0 and "in the place of an earlier evaluation" in shown, f"{more}: {shown} {error}")
+    keys = set(evaluated(out))
+    few = raw(os.path.join(here, "few.csv"), titles[:2], (x, y / 40))
+    code, _, error = start("evaluate", "dcb", few, *words, "--replace", "--E2", "0.2GPa", "--G13", "0.1GPa")
+    expect(code == 0 and "J/m2 at the largest load (effective crack), and laminates have 10 to 20000 J/m2" in error, f"too small: {error}")
+    expect(set(evaluated(out)) == keys and {point["name"] for point in evaluated(out)["points"]} == {"NL", "5 %", "max"}, "its keys are always the same")
 
 
 def noisy(seed, noise):
@@ -294,7 +322,7 @@ def effective():
     compliance = (3 * crack ** 3 + 2 * half ** 3) / (8 * B * H ** 3 * E1) + 3 * half / (10 * B * H * G13)
     load = np.linspace(0, np.sqrt(700.0 * 16 * B ** 2 * H ** 3 * E1 / 9) / crack, 80)
     path = raw(os.path.join(here, "enf.csv"), ["Deflection (mm)", "Load (N)"], (1e3 * compliance * load, load))
-    words = ["evaluate", "enf", path, "--width", "25mm", "--arm", "1.5mm", "--notch", "30mm", "--half-span", "50mm", "--out", out]
+    words = ["evaluate", "enf", path, "--width", "25mm", "--arm", "1.5mm", "--notch", "30mm", "--half-span", "50mm", "--out", out, "--replace"]
     code, _, error = start(*words, "--E1", "140GPa", "--E2", "9GPa", "--G13", "5GPa")
     value = evaluated(out)["toughness"]["effective crack"]["max"]
     expect(code == 0 and "warning: effective" not in error and abs(value / 700 - 1) < 1e-3, f"ENF with moduli: {value} {error}")
@@ -312,8 +340,16 @@ def implausible():
     expect_error(start("evaluate", "dcb", metres, "--notch", "50mm", *dcb), 2, "bending modulus of 0.1[0-9]* GPa.*units of the file")
     path = raw(os.path.join(here, "mm.csv"), ["Extension (mm)", "Load (N)", "Crack (mm)"], (x, y, marks))
     expect_error(start("evaluate", "dcb", path, "--notch", "50m", *dcb), 2, "up to 90 mm, are not longer than --notch 50m")
-    code, _, error = start("evaluate", "dcb", path, "--notch", "50mm", "--E1", "40GPa", *dcb)
-    expect(code == 0 and "warning: " in error and "--E1 is 40 GPa" in error, f"a modulus beside another E1: {error}")
+    # Half of the width for all of it, and the opening of one arm for that of both: told, with what would agree.
+    for given, asked, more in (("80GPa", "1.39", ""), ("60GPa", "1.85", "opening of one arm"), ("200GPa", "0.56", "(--compliance)")):
+        code, shown, error = start("evaluate", "dcb", path, "--notch", "50mm", "--E1", given, *dcb)
+        expect(code == 0 and f"warning: {path}: the initial compliance" in error and f"--E1 is {given[:-3]} GPa: it would agree with a width of" in error
+               and ("opening of one arm" in error) == (more == "opening of one arm") and more in error and f"GPa, {asked} of --E1 (without" in shown,
+               f"a modulus beside E1 of {given}: {shown} {error}")
+    code, shown, error = start("evaluate", "dcb", path, "--notch", "50mm", "--E1", "140GPa", "--E2", "9GPa", "--G13", "5GPa", *dcb)
+    expect(code == 0 and "warning" not in error and re.search(r"^modulus: the initial compliance of 0.1[0-9]* mm/N gives a bending modulus of 1[2-4][0-9.]* GPa, "
+                                                             "[0-9.]* of --E1$", shown, re.M), f"the modulus is always said: {shown} {error}")
+    expect(90e9 < evaluated(out)["modulus"] < 150e9 and evaluated(out)["units"]["modulus"] == "Pa", "and kept")
     files = {}
     for a in (0.02, 0.03, 0.04):
         bend, load = bent(a, 0.05)
@@ -321,6 +357,8 @@ def implausible():
     words = ["evaluate", "enf", files[0.03], "--notch", "30mm", "--half-span", "50mm", *dcb]
     expect_error(start(*words, "--calibration", f"20mm={files[0.04]}", "--calibration", f"40mm={files[0.02]}"), 2,
                  "compliance does not grow with the crack")
+    expect_error(start(*words[:2], files[0.02], *words[3:], "--calibration", f"20mm={files[0.03]}", "--calibration", f"40mm={files[0.04]}"), 2,
+                 "compliance does not grow with the crack: .* at 20 mm, .* at 30 mm: do the files")
     expect_error(start(*words, "--calibration", f"30mm={files[0.03]}", "--calibration", f"40mm={files[0.04]}"), 2,
                  "30 mm is the length of --notch, too")
     expect_error(start("evaluate", "dcb", files[0.03], "--notch", "50mm", *dcb), 2, "1 to 1000 GPa are expected")
@@ -356,4 +394,5 @@ else:
     blocks()
     effective()
     implausible()
+    replaced()
 finish()

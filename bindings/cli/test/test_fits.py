@@ -367,6 +367,10 @@ def words():
     expect(code == 2 and re.search("GIc: unknown key; numbers of the laws of .*: laws.0.normal_toughness, laws.0.tang", error),
            f"a key that is none: {error}")
     expect("solver" not in error, "and no list of tables")
+    for command in (["fit", scene, "--data", far, "--x-scale", "0.5", "--parameters", "law.0.normal_toughness"],
+                    ["sweep", scene, "--vary", "law.0.normal_toughness=0.1,0.2"]):
+        code, _, error = start(*command, "--out", here + "/hint")
+        expect(code == 2 and "did you mean laws.0.normal_toughness?" in error, f"a key that is nearly one: {error}")
     steep = write_lines(os.path.join(here, "steep.csv"), "Weg (mm);Kraft (N)", *(f"{x / 10};{8 * x}" for x in range(12)))
     code, shown, error = start("fit", scene, "--data", steep, "--parameters", "laws.0.tangential_toughness", "--out", here + "/fit",
                                "--set", "time.steps=10")
@@ -381,7 +385,7 @@ def words():
     said = []
     study.say, say = said.append, study.say
     study.say_rows(study.rows_of(search, found), search, 0.95)
-    study.warn(search, found, ["laws[0].normal_toughness"], [[1.25]])
+    study.warn(search, found, ["laws[0].normal_toughness"], [[[1.25, 1.25], [1.7, 1.8]]])
     study.say = say
     for names, strengths in ((["laws[0].normal_toughness"], True), (["laws[0].normal_toughness", "laws[0].normal_strength"], False),
                              (["materials[0].young"], False)):
@@ -389,8 +393,21 @@ def words():
     for text in ("toughness = 1.59.* N/mm, 95 % interval 1.5.* to 1.6.* N/mm$", "begin from there, --parameters laws.0.normal_toughness@1.59",
                  "interval of laws.0..normal_toughness cannot be trusted: at its ends", "may depend on it in steps",
                  r"refine the mesh \(--set geometry.divisions=100 --set time.steps=18\)", "--parameters laws.0.normal_toughness@1.9",
-                 "a.toml jumps at a displacement of 1.25 mm"):
+                 "a.toml jumps at a displacement of 1.25, 1.7 to 1.8 mm: the"):
         expect(any(re.search(text, line) for line in said), f"it says {text}: {said}")
+
+
+def no_description():
+    """What a model cannot describe is told, with its exit code; jumps that lie close by are one drop."""
+    expect(study.drops([1.7004, 1.7222, 1.744, 1.7658, 2.5], 2.5) == [[1.7004, 1.7658], [2.5, 2.5]], "neighbouring jumps are one drop")
+    here = folder()
+    files = [write_lines(os.path.join(here, f"{kind}.toml"), f"# delam new {kind} --width 25mm" if kind else "[units]") for kind in ("mmb", "dcb", "")]
+    row = {"key": "laws[0].normal_toughness", "told": True}
+    for share, noise, path, wanted in ((0.19, 0.01, files[1], ["does not describe the curve, 19 % off"]), (0.028, 0.003, files[2], ["9.3 times the noise"]),
+                                       (0.013, 0.003, files[1], []), (0.028, 0.02, files[2], []),
+                                       (0.004, 0.003, files[0], ["4 % too small to 14 % too large in laws.0..normal_toughness"])):
+        said = study.remarks(SimpleNamespace(noise=noise, model=SimpleNamespace(files=[path])), share, [row])
+        expect(len(said) == len(wanted) and all(re.search(text, line) for text, line in zip(wanted, said)), f"{share} of {path}: {said}")
 
 
 def told_of_beams(trials=100):
@@ -569,6 +586,6 @@ elif sys.argv[1:] == ["outcomes"]:
     outcomes()
     sys.exit()
 else:
-    for part in (fits, rugged, late, teeth, alike, untold, words):
+    for part in (fits, rugged, late, teeth, alike, untold, words, no_description):
         part()
 finish()

@@ -10,6 +10,7 @@ from support import expect, finish, folder
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "study"))
 from command import Trouble  # noqa: E402
+from measured.broken import broken_at  # noqa: E402
 from measured.columns import found  # noqa: E402
 from measured.curve_data import CurveData, scale_of  # noqa: E402
 from measured.loops import monotone, turning_points  # noqa: E402
@@ -75,6 +76,13 @@ def variants():
     plain = CurveData(FILES["a German machine"][0], GIVEN, ("", ""))
     expect(np.allclose(plain.x, X) and np.allclose(plain.y, Y * 1e-3) and plain.named_units == ["mm", "kN"],
            "without units of the scene the numbers stay")
+    two = file_of("Zeit (s),Weg (mm),Weg 2 (mm),Kraft (N)\n" + "".join(f"{k},{x},{2 * x},{y}\n" for k, (x, y) in enumerate(zip(X, Y))))
+    first, second = (CurveData(two, SimpleNamespace(**{**vars(GIVEN), "columns": names})) for names in (None, ["3", "Kraft"]))
+    expect('not taken: "Weg 2" in mm (--columns X Y)' in first.said and "not taken" not in second.said and np.allclose(second.x, 2 * first.x),
+           f"a column of the same kind is named, and numbers count from 1: {first.said} {second.said}")
+    bare = CurveData(file_of("".join(f"{k},{y},{x}\n" for k, (x, y) in enumerate(zip(X, Y)))), SimpleNamespace(**{**vars(GIVEN), "columns": ["3", "2"]}))
+    expect('x is column 3, y is column 2' in bare.said and np.allclose(bare.x, X), f"without titles, too: {bare.said}")
+    expect(found(read_test(file_of("Prüfzeit;Weg\ns;mm\n1,0;1,0\n2,0;2,0\n")), "time") == [0], "a German time")
     table = read_test(FILES["a column of cracks with gaps"][0])
     expect(found(table, "crack") == [], "an empty column is none")
 
@@ -97,6 +105,7 @@ def refusals():
     refused("a;b\n1;2\n2;x\n3;4\n", 'row 2 of the numbers (line 3) has "x"')
     refused("a;b\n1;2\n2;3;4\n3;4\n", "row 2 of the numbers (line 3) has 3 columns, 2 are expected")
     refused("a;b\n1;2\n2;3\n", 'there is no column "weg"; it has: a, b', columns=["weg", "b"])
+    refused("1;2\n2;3\n", 'there is no column "0"; it has: columns 1 to 2', columns=["0", "1"])
     refused("a;b\n2;2\n2;3\n", "must increase")
     refused("a;b\0\n2;2\n", "zero byte")
     refused("a;b\n1;2\n2;3\n", "--slack 3kg: a length is expected, such as 0.3mm", slack="3kg")
@@ -179,9 +188,29 @@ def slacks():
            f"the compliance of the machine: {stiff.x[top]} {stiff.said}")
 
 
+def breaks():
+    """A load that is gone at once at the end is the break, with the points on its way; drops, unloadings and cracks that run
+    through are none."""
+    x = np.linspace(0, 3, 601)
+    load = np.where(x < 1.5, 40 * x, 60 * np.sqrt(1.5 / np.maximum(x, 0.1))) + 0.1 * np.sin(50 * x)
+    fallen = np.concatenate([load[:500], [0.5 * load[499], 0.2 * load[499]], np.zeros(99)])
+    drop = np.where(x < 1.5, 40 * x, 20 + 5 * (x - 1.5))
+    through = 60 * np.clip(np.minimum(x / 1.5, (3 - x) / 1.5), 0, 1)
+    back = np.concatenate([x[:500], np.linspace(x[499], 0, 101)])
+    unloaded = np.concatenate([load[:500], load[499] * np.linspace(1, 0, 101)])
+    for what, at, y, wanted in (("a break", x, fallen, 500), ("a drop", x, drop, None), ("a crack that runs through", x, through, None),
+                                ("an unloading", back, unloaded, None), ("a fast return", np.append(x, 0.0), np.append(load, 0.0), None),
+                                ("a break of few points", x[:500:20], np.append(load[:480:20], 0.0), 24)):
+        expect(broken_at(at, y) == wanted, f"{what}: {broken_at(at, y)}, {wanted} is right")
+    data = CurveData(file_of("Weg [mm];Kraft [N]\n" + rows(";", x=x, y=fallen)), GIVEN, ("m", "N"))
+    expect(len(data.x) == 500 and "the load drops to zero at 0.002495 m: the specimen breaks there, and the 101 rows behind are left out" in data.said,
+           f"a fit leaves it out: {len(data.x)} {data.said}")
+
+
 variants()
 refusals()
 units()
 ways()
 slacks()
+breaks()
 finish()

@@ -2,6 +2,7 @@
 """delam sweep and delam fit: tables, resuming, and messages for wrong words."""
 import csv
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -40,6 +41,7 @@ def sweeps():
     expect(float(rows[3]["peak_reaction"]) == peak and rows[3]["exit_code"] == "0", "a row has the numbers of its run")
     expect(all(os.path.getsize(os.path.join(out, name)) > 5000 for name in ("curves.png", "response.png")), "pictures")
 
+    expect(all(row["warnings"] == "2" for row in rows) and shown.count("warning of 6 of 6 runs (1, 2, 3, 4, 5, 6): ") == 2, f"warnings: {shown}")
     marked = os.path.join(out, "0003", "state.bin")
     before = os.stat(marked).st_mtime_ns
     shutil.rmtree(os.path.join(out, "0005"))
@@ -54,6 +56,10 @@ def sweeps():
     code, _, error = start(*other, "--replace")
     expect(code == 0 and not os.path.exists(os.path.join(out, "0005")) and os.path.exists(os.path.join(out, "notes.txt")),
            f"--replace discards its runs and nothing else: {error}")
+
+    named = write(changed("steps = 20", "steps = 5").replace("[geometry]", '[units]\nlength = "m"\nforce = "N"\n[geometry]', 1))
+    code, shown, error = start("sweep", named, "--vary", "laws.0.tangential_toughness=300,400", "--out", out + "-units")
+    expect("tangential_toughness 300 N/m  peak" in shown and re.search("peak [0-9.e+]* N/m  left", shown), f"units of the scene: {shown} {error}")
 
     code, shown, error = start("sweep", scene, "--vary", "laws.0.normal_toughness=50:250:3", "--out", out + "2")
     failed = table(os.path.join(out + "2", "table.csv"))[0]

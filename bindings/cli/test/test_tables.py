@@ -166,10 +166,51 @@ def cracks():
     expect(code == 0 and "a sheet apart (--marks FILE)" in error, f"without crack lengths the way to give them is told: {error}")
     both = file_of("Specimen;A\n" + text + "\nSpecimen;B\n" + text)
     expect_error(start(*words[:2], both, *words[3:]), 2, "the file has 2 tests: 1 \"A\" .*--specimen 1")
-    code, shown, error = start(*words[:2], both, *words[3:], "--specimen", "B")
+    code, shown, error = start(*words[:2], both, *words[3:], "--specimen", "B", "--replace")
     expect(code == 0 and 'specimen "B" of 2 tests' in shown, f"a specimen by its name: {shown} {error}")
     sheet = Sheet(file_of(by_time, name="marks.csv"), SimpleNamespace(crack="", units=None))
     expect(len(sheet.crack) == 9, "a sheet is read")
+
+
+
+def doubtful_cracks():
+    """Crack lengths that do not fit the compliance are told; those of an unloading, or that shrink, are left out and counted."""
+    text, _, by_way = opened()
+    test, out = file_of(text), os.path.join(folder(), "out")
+    words = ["evaluate", "dcb", test, "--width", "25mm", "--arm", "1.5mm", "--notch", "50mm", "--out", out]
+    rows = [line.split(";") for line in by_way.splitlines()[1:]]
+
+    def sheet(change, kept=rows):
+        return file_of("Crack length (mm);Position (mm)\n" + "".join(f"{change(float(row[0])):.4f};{row[1]}\n" for row in kept), name="marks.csv")
+
+    code, shown, error = start(*words, "--E1", "140GPa", "--E2", "9GPa", "--G13", "5GPa", "--marks", sheet(lambda a: a))
+    expect(code == 0 and "first crack" not in error and "offset" not in error and "differ" not in error, f"lengths that fit: {error}")
+    code, shown, error = start(*words, "--marks", sheet(lambda a: a + 9))
+    expect(code == 0 and "first crack is 59" in error and "by the compliance there 50" in error and "an offset below zero, which is taken as zero, and n of"
+           in error and "the methods differ by" in error, f"lengths from elsewhere: {error}")
+    code, shown, error = start(*words, "--E2", "9GPa", "--G13", "5GPa", "--marks", sheet(lambda a: 50 + 1.3 * (a - 50)))
+    expect(code == 0 and "the offset of beam theory is" in error and "where the moduli give 2.7" in error, f"lengths in another scale: {error}")
+    expect_error(start(*words, "--marks", sheet(lambda a: 3 * (a - 50))), 2, "the first crack is .* mm long, --notch is 50mm: .* no growths: add the notch")
+    code, shown, error = start(*words, "--marks", sheet(lambda a: a - 2))
+    expect(code == 0 and "marks: 8 of 9 count for the mean; the crack of the other is not longer than the notch" in shown, f"short ones: {shown} {error}")
+    wrong = [[f"{float(row[0]) - 4 * (k == 6)}", row[1]] for k, row in enumerate(rows)]
+    code, shown, error = start(*words, "--marks", sheet(lambda a: a, wrong))
+    expect(code == 0 and "at 8 points, found by their displacement; 1 mark behind a longer crack is left out" in shown, f"a slip: {shown} {error}")
+    # Rows of the test with a length while the machine goes back.
+    lines = [line.split(";") for line in text.splitlines()[1:]]
+    a = dict(zip(range(62, 160, 12), (row[0] for row in rows)))
+    given = ["Position (mm);Force (N);Crack (mm)"] + [f"{line[1]};{1e3 * float(line[2]):.6f};{a.get(k, '')}" for k, line in enumerate(lines)]
+    x, p = float(lines[100][1]), 1e3 * float(lines[100][2])
+    back = [f"{part * x:.6f};{part * p:.6f};{66 if part == 0.5 else ''}" for part in (0.8, 0.5, 0.8)]
+    test = file_of("\n".join(given[:102] + back + given[102:]) + "\n")
+    words += ["--replace"]
+    code, shown, error = start(*words[:2], test, *words[3:])
+    expect(code == 0 and "at 9 points; 1 mark on an unloading is left out" in shown and "modified beam theory: visual 280" in shown,
+           f"a mark on an unloading: {shown} {error}")
+    code, shown, error = start(*words[:2], test, *words[3:], "--compliance", "0.04mm/N")
+    expect(code == 0 and "of the displacement at the largest load are those of machine and fixture" in error and "% stiffer" in error,
+           f"a machine that gives way: {shown} {error}")
+    expect_error(start(*words[:2], test, *words[3:], "--compliance", "4mm/N"), 2, "that of the machine is less than that of the test")
 
 
 numbers()
@@ -177,4 +218,5 @@ files()
 several()
 signs()
 cracks()
+doubtful_cracks()
 finish()

@@ -332,6 +332,7 @@ void add_evaluate(CLI::App& app, Arguments& into, Commands& of) {
     of.evaluate->add_option("--out,-o", into.folder, "folder for evaluate.json, r-curve.csv and a picture")
         ->type_name(folder_value)
         ->required();
+    of.evaluate->add_flag("--replace", into.replace, "replace the evaluation of another test in the folder");
     of.evaluate->footer(footer);
 }
 

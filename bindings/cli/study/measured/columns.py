@@ -17,7 +17,7 @@ WORDS = {
     "force": ("force", "load", "reaction", "kraft", "standardkraft", "prüfkraft", "charge", "effort", "fuerza",
               "carga", "forza", "carico", "f", "p", "y"),
     "crack": ("crack", "delamination", "risslänge", "riss", "fissure", "grieta", "cricca", "a"),
-    "time": ("time", "zeit", "temps", "tiempo", "tempo", "t"),
+    "time": ("time", "elapsed", "zeit", "prüfzeit", "testzeit", "versuchszeit", "messzeit", "laufzeit", "temps", "tiempo", "tempo", "t"),
 }
 
 
@@ -43,16 +43,26 @@ def _by_units(table, kind):
 
 
 def named(table, name):
-    """The column of this title, with or without its unit and capitals, or of this number from 0 where there are no
-    titles."""
-    titled = any(table.titles)
-    known = table.titles if titled else [str(k) for k in range(len(table.columns))]
+    """The column of this title, with or without its unit and capitals, or else of this number, from 1 on."""
     for same in (lambda a, b: a == b, lambda a, b: a.lower() == b.lower()):
-        for k, title in enumerate(known):
+        for k, title in enumerate(table.titles):
             full = f"{title} ({table.units[k]})"
             if title and (same(title, name) or same(full, name) or same(f"{title} [{table.units[k]}]", name)):
                 return k
-    raise Trouble(f"{table.path}: there is no column {quoted(name)}; it has: {', '.join(known)}")
+    if name.isascii() and name.isdigit() and 1 <= int(name) <= len(table.columns):
+        return int(name) - 1
+    known = ", ".join(table.titles) if any(table.titles) else f"columns 1 to {len(table.columns)}"
+    raise Trouble(f"{table.path}: there is no column {quoted(name)}; it has: {known}")
+
+
+def rivals(table, chosen):
+    """Says which other columns could be meant: those whose titles or units are of a displacement or a load."""
+    filled = [k for k, column in enumerate(table.columns) if np.isfinite(column).any()]
+    cracks = found(table, "crack")
+    kinds = ["length", "force"]
+    others = [k for k in filled if k not in chosen and k not in cracks
+              and (table.units[k] and kind_of(table.units[k])[0] in kinds or k in found(table, "displacement") + found(table, "force"))]
+    return [f"not taken: {', '.join(label(table, k) for k in others)} (--columns X Y)"] if others else []
 
 
 def choose(table, names=None, x_kind="displacement"):

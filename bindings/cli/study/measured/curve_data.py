@@ -5,7 +5,8 @@ import numpy as np
 from _pictures.input_file import quoted
 from analyses import LEAST, MOST
 from command import Trouble
-from measured.columns import choose, label
+from measured.broken import broken_at, said_of_break
+from measured.columns import choose, label, rivals
 from measured.loops import Way
 from measured.slack import find_slack
 from measured.one_test import read_test
@@ -81,6 +82,7 @@ class CurveData:
         x, y = choose(table, given.columns, "time" if given.x == "time" else "displacement")
         self.names = [label(table, x), label(table, y)]
         said = [f"x is {self.names[0]}, y is {self.names[1]}", *table.said]
+        said[1:1] = [] if given.columns else rivals(table, (x, y))
         self.force_unit = table.units[y]
         self.named_units = [unit for unit in (table.units[x], table.units[y]) if kind_of(unit)[0]]
         nameless = [name for name, k in zip("xy", (x, y)) if not table.units[k]]
@@ -105,6 +107,10 @@ class CurveData:
             points[which] = points[which] * factor
             self._require_numbers(self.names[which], points[which], f" times {name} {factor:g}")
         points = upright(points, (given.x_scale, scale), said)
+        broken = broken_at(*points) if given.x.startswith("load") and given.y.startswith("reaction") else None
+        if broken is not None:
+            said.append(said_of_break(points[0][broken - 1], len(points[0]) - broken, length))
+            points = [column[:broken] for column in points]
         # The compliance of the machine counts for the whole load, before it is divided by the width.
         points = self._of_specimen(points, given, (length, force), given.scale / scale, said)
         self.rows = len(points[0])

@@ -10,8 +10,8 @@ MODES = {"normal_toughness": "mode I", "tangential_toughness": "mode II"}
 TOTAL = {"dcb": "mode I", "enf": "mode II"}  # of which mode the toughness of a test is
 
 
-def beside(folder):
-    """Toughnesses of a fit in J/m2, and exponents of its criterion: key, value, ends of the interval, with errors in what
+def beside(folder, measured):
+    """measured: the file of this test. Toughnesses of a fit in J/m2, and exponents of its criterion: key, value, ends of the interval, with errors in what
     is held where the fit has looked at them; those of which it knows the units."""
     try:
         about = read_json(os.path.join(folder, "fit.json"), MOST_RESULT)
@@ -22,6 +22,12 @@ def beside(folder):
     if [kind for kind, _ in sizes] != ["length", "force"]:
         complain(f"warning: {folder}: its scene names no units of length and force: it cannot stand beside")
         return []
+    if about.get("describes") is False:
+        complain(f"warning: --beside {folder}: its model does not describe its curve: its toughness and interval mean nothing")
+    names = [os.path.basename(path) for path in about.get("data", [])]
+    if names and os.path.basename(measured) not in names:
+        complain(f"warning: --beside {folder}: it is the fit of {', '.join(names[:3])}, and this is {os.path.basename(measured)}: "
+                 "do both belong to one specimen?")
     factor, rows = sizes[1][1] / sizes[0][1], []
     for row in about["parameters"]:
         name = row["key"].rpartition(".")[2]

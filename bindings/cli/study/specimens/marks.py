@@ -32,12 +32,26 @@ def crack_column(table, given):
     return k, table.columns[k] * kind_of(unit)[1]
 
 
-def growing(displacement, load, crack):
-    """One mark for each length."""
-    if len(crack):
-        kept = np.concatenate([[True], np.diff(crack) > 0])
-        displacement, load, crack = displacement[kept], load[kept], crack[kept]
-    return np.array([displacement, load, crack]).T
+def farthest(displacement, there):
+    """The largest displacement before each row."""
+    return np.maximum.accumulate(np.where(there, displacement, -np.inf))
+
+
+def placed(displacement, load, crack, before, wide):
+    """Displacement, load and crack of the marks that count, along the test: one for each length, and none where the test is
+    unloaded; and a sentence for each kind that does not. before: the largest displacement until each; wide: the range."""
+    way = displacement >= before - WIDER * wide
+    off = int(np.sum(~way))
+    displacement, load, crack = displacement[way], load[way], crack[way]
+    longest = np.maximum.accumulate(crack) if len(crack) else crack
+    new = np.concatenate([[True], crack[1:] > longest[:-1]]) if len(crack) else np.zeros(0, dtype=bool)
+    shorter = int(np.sum(crack < longest))
+    left = []
+    if off:
+        left.append(f"{off} mark{'s' * (off > 1)} on an unloading {'are' if off > 1 else 'is'} left out")
+    if shorter:
+        left.append(f"{shorter} mark{'s' * (shorter > 1)} behind a longer crack {'are' if shorter > 1 else 'is'} left out")
+    return np.array([displacement[new], load[new], crack[new]]).T, left
 
 
 class Sheet:
@@ -70,7 +84,8 @@ class Sheet:
             rows = np.isfinite(own) & np.isfinite(columns[0]) & np.isfinite(columns[1])
             place, order, what, unit = time, np.argsort(own[rows], kind="stable"), "time", ("s", 1.0)
             where = own[rows][order]
-            displacement, load = (np.interp(time, where, column[rows][order]) for column in columns)
+            displacement, load, before = (np.interp(time, where, column[rows][order])
+                                          for column in (*columns, farthest(columns[0], rows)))
         else:
             place = self._column("displacement", "length", units[0])
             if place is None:
@@ -81,7 +96,7 @@ class Sheet:
             where = np.maximum.accumulate(columns[0][rows])
             if not np.nanmax(place) > 0:  # written with the sign of the machine
                 place = -place
-            displacement, load = place, np.interp(place, where, columns[1][rows])
+            displacement, load, before = place, np.interp(place, where, columns[1][rows]), place
             own = self._column("force", "force", units[1])
             load = np.where(np.isfinite(own), np.abs(own), load) if own is not None else load
         known = np.isfinite(self.crack) & np.isfinite(place) & (self.crack > 0)
@@ -92,5 +107,7 @@ class Sheet:
             raise Trouble(f"{path}: the {what} {place[k] / unit[1]:.4g} {unit[0]} of the crack of {1e3 * self.crack[k]:g} mm lies outside "
                           f"of the test, {where.min() / unit[1]:.4g} to {where.max() / unit[1]:.4g} {unit[0]} in {test.path}: is its unit "
                           "another one, or does the sheet belong to another test?")
-        said.append(f"crack is {label(self.table, self.crack_column)} of {path} at {int(known.sum())} points, found by their {what}")
-        return growing(displacement[known], load[known], self.crack[known])
+        order = np.flatnonzero(known)[np.argsort(place[known], kind="stable")]
+        marks, left = placed(displacement[order], load[order], self.crack[order], before[order], np.ptp(columns[0][rows]))
+        said += [f"crack is {label(self.table, self.crack_column)} of {path} at {len(marks)} points, found by their {what}", *left]
+        return marks

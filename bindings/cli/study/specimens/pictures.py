@@ -24,7 +24,7 @@ def draw(out, test, curve, answers, points, bands):
     # Points may coincide: the later ones are smaller.
     for point, (marker, size) in zip(points.points, (("o", 11), ("s", 8), ("D", 6), ("^", 4))):
         left.plot(1e3 * point.displacement, point.load, marker, color=RED, markersize=size, fillstyle="none",
-                  label=point.name.partition(" (")[0])
+                  label=point.name)
     left.set_xlabel("displacement (mm)")
     left.set_ylabel("load (N)")
     left.legend(fontsize="small", frameon=True, framealpha=0.9, edgecolor="none")
@@ -56,7 +56,7 @@ def one_crack(answers):
 
 def at_points(ax, answers, points):
     """Draws the toughness at the points of the standard; returns the toughnesses of each method."""
-    names = [point.name.partition(" (")[0] for point in points.points]
+    names = [point.name for point in points.points]
     rates = [np.array([answer.at(point, points.zero) for point in points.points]) for answer in answers]
     for answer, rate, (marker, colour) in zip(answers, rates, MARKS):
         ax.plot(range(len(names)), rate, marker, color=colour, label=answer.name, fillstyle="none")

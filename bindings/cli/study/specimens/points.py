@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Points of a load curve at which standards evaluate: the initial compliance, where the curve leaves its line (NL), the
 5 % offset, the largest load. Loads are those of specimens/smooth.py, so that no single noisy point decides."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,13 +21,14 @@ LEAVES, SURELY = 0.01, 3.0
 @dataclass
 class Point:
     """name, place among the points of the curve, displacement, load, its standard error; crack: its length, where the
-    file has it."""
+    file has it; after_largest_load: the curve reaches it there, and the largest load is taken."""
     name: str
     place: int
     displacement: float
     load: float
     error: float = 0.0
     crack: float = float("nan")
+    after_largest_load: bool = False
 
 
 class Points:
@@ -77,8 +78,7 @@ class Points:
         # NL comes no later than the 5 % offset: by its definition where the noise is small, by this where it is large.
         leaves = leaves if offset is None else min(leaves, offset)
         return [self._point("NL", leaves),
-                self._point("5 %" if offset is not None else "5 % (after the largest load, which is taken)",
-                            self.top if offset is None else offset),
+                replace(self._point("5 %", self.top if offset is None else offset), after_largest_load=offset is None),
                 self._point("max", self.top)]
 
     def add_visual(self, mark):

@@ -15,10 +15,13 @@ NEEDED = {"dcb": ("width", "arm", "notch"), "enf": ("width", "arm", "notch", "sp
           "mmb": ("width", "arm", "notch", "span", "lever", "E1", "E2", "G13")}
 # Two names of one number, and the factor.
 SAME = (("span", "half-span", 2.0), ("G13", "G12", 1.0), ("arm", "thickness", 0.5))
-# The modulus that the initial compliance has over E1: bending tests give 0.8 to 1.1 of that of tension, so that beyond the
-# first pair something else is likely wrong, and beyond the second certain: units differ by factors of ten. Half of these
-# distances would complain of soft fixtures, twice of them would miss the whole span taken for its half.
-LIKELY, CERTAIN = (0.5, 2.0), (0.1, 10.0)
+# The modulus that the initial compliance has over E1. Bending tests of laminates give 0.8 to 1.1 of the modulus of tension, a
+# compliance of 5 % that is not taken off and a notch of 50 mm that is 1 mm off move it by 5 % each: beyond the first pair a
+# number of the sheet or a unit is likely wrong. The opening of one arm for that of both makes 2, 15 mm of width for 25 mm 1.7.
+# Beyond the second pair something is certainly wrong: units differ by factors of ten.
+LIKELY, CERTAIN = (0.75, 1.25), (0.1, 10.0)
+UNROTATED = 0.6  # the lower one without --E2 and --G13: the rotation of the arms at the tip counts as bending then, up to a fourth
+HALVED = (0.5, 2.0)  # beyond, a half that was taken for a whole, or the reverse, is refused
 MODULI = 1e9, 1e12  # Pa, without E1: from a plastic to twice the stiffest carbon fibres in resin
 
 
@@ -49,6 +52,9 @@ def sheet_of(given):
         raise Trouble(f"{given.test} needs {'; '.join(missing)}")
     if "span" in sheet and not sheet["notch"] < 0.5 * sheet["span"]:
         raise Trouble(f"--notch {given.sheet['notch']}: less than the half span of {500 * sheet['span']:g} mm is expected")
+    if "lever" in sheet and not sheet["lever"] > sheet["span"] / 6:
+        raise Trouble(f"--lever {given.sheet['lever']}: more than a third of the half span, {1e3 * sheet['span'] / 6:.4g} mm, is expected: below, "
+                      "the lever presses the arms together, and there is no mode I")
     if "block-pin" in sheet and given.test != "dcb":
         raise Trouble("--block-pin is of dcb alone")
     return sheet
@@ -68,32 +74,65 @@ def mistake(modulus_of, sheet):
     return ""
 
 
-def require_modulus(modulus_of, compliance, sheet, curve):
-    """Refuses a bending modulus, a function of the sheet, that no specimen has, and warns of an unlikely one."""
+def agreeing(modulus_of, sheet, key):
+    """The number of the sheet with which the modulus would be --E1, between a third and three times of it; None: there is none."""
+    low, high = sheet[key] / 3, 3 * sheet[key]
+
+    def off(value):
+        return modulus_of({**sheet, key: value}) - sheet["E1"]
+
+    if not off(low) * off(high) < 0:
+        return None
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if off(low) * off(middle) > 0 else (low, middle)
+    return middle
+
+
+def reasons(modulus_of, sheet, ratio, test):
+    """What can make the modulus differ from --E1, in words: numbers of the sheet with which it would not."""
+    found = [(name, factor, agreeing(modulus_of, sheet, key))
+             for key, name, factor in (("width", "width", 1e3), ("arm", "thickness", 2e3), ("notch", "notch", 1e3))]
+    said = "it would agree with a " + ", a ".join(f"{name} of {factor * value:.3g} mm" for name, factor, value in found if value)
+    if test == "dcb" and MADE_UP[0] < ratio / 2 < MADE_UP[1]:
+        said += ", or if the displacement is the opening of one arm and not of both"
+    if ratio < 1:
+        said += ", or if machine and fixture give way (--compliance)"
+    return said + "; or E1, or a unit of the file (--units), is another one"
+
+
+def require_modulus(modulus_of, compliance, sheet, curve, test):
+    """Refuses a bending modulus, a function of the sheet, that no specimen has, and warns of an unlikely one; returns it."""
     modulus = modulus_of(sheet)
     said = (f"{curve.path}: the initial compliance of {1e3 * compliance:.4g} mm/N ({curve.read_as}) gives a bending modulus of "
             f"{modulus / 1e9:.4g} GPa")
     advice = "units of the file (--units), another test, or a wrong --notch, --arm, --width or --span are likely"
-    if "E1" in sheet:
-        ratio, wanted = modulus / sheet["E1"], f", --E1 is {sheet['E1'] / 1e9:g} GPa"
-    else:
-        ratio, wanted = None, f": {MODULI[0] / 1e9:g} to {MODULI[1] / 1e9:g} GPa are expected"
-    what = mistake(modulus_of, sheet) if ratio is not None and not LIKELY[0] < ratio < LIKELY[1] else ""
+    if "E1" not in sheet:
+        if not MODULI[0] < modulus < MODULI[1]:
+            raise Trouble(f"{said}: {MODULI[0] / 1e9:g} to {MODULI[1] / 1e9:g} GPa are expected: {advice}")
+        return modulus
+    ratio = modulus / sheet["E1"]
+    said += f", --E1 is {sheet['E1'] / 1e9:g} GPa"
+    what = mistake(modulus_of, sheet) if not HALVED[0] < ratio < HALVED[1] else ""
     if what:
-        raise Trouble(f"{said}{wanted}, and would agree if {what}")
-    if not (CERTAIN[0] < ratio < CERTAIN[1] if ratio is not None else MODULI[0] < modulus < MODULI[1]):
-        raise Trouble(f"{said}{wanted}: {advice}")
-    if ratio is not None and not LIKELY[0] < ratio < LIKELY[1]:
-        complain(f"warning: {said}{wanted}: {advice}")
+        raise Trouble(f"{said}, and would agree if {what}")
+    if not CERTAIN[0] < ratio < CERTAIN[1]:
+        raise Trouble(f"{said}: {advice}")
+    if not (LIKELY[0] if {"E2", "G13"} <= sheet.keys() else UNROTATED) < ratio < LIKELY[1]:
+        complain(f"warning: {said}: {reasons(modulus_of, sheet, ratio, test)}")
+    return modulus
 
 
-def require_growing(lengths, compliances, path, advice):
-    """Refuses compliances that do not grow with the crack as a whole, of which no calibration is one."""
+def require_growing(lengths, compliances, path, advice, each=False):
+    """Refuses compliances that do not grow with the crack, of which no calibration is one: as a whole, for marks that an
+    operator reads, or from each length to the next, for files of one length each."""
     order = sorted(range(len(lengths)), key=lambda k: lengths[k])
     first, last = order[0], order[-1]
     if not lengths[last] > lengths[first]:
         raise Trouble(f"{path}: all crack lengths are {1e3 * lengths[first]:g} mm: a calibration needs different ones")
     middle = sum(lengths) / len(lengths)
-    if not sum((a - middle) * c for a, c in zip(lengths, compliances)) > 0:
+    falls = [(a, b) for a, b in zip(order, order[1:]) if not compliances[b] > compliances[a]] if each else []
+    if falls or not sum((a - middle) * c for a, c in zip(lengths, compliances)) > 0:
+        first, last = falls[0] if falls else (first, last)
         raise Trouble(f"{path}: the compliance does not grow with the crack: {1e3 * compliances[first]:.4g} mm/N at "
                       f"{1e3 * lengths[first]:g} mm, {1e3 * compliances[last]:.4g} mm/N at {1e3 * lengths[last]:g} mm: {advice}")

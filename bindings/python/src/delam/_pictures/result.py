@@ -19,6 +19,7 @@ STYLE = {
     "font.size": 11.5, "axes.titlesize": 12, "axes.spines.top": False, "axes.spines.right": False,
     "axes.grid": True, "grid.color": "#e4e6ea", "grid.linewidth": 0.8, "axes.axisbelow": True,
     "text.parse_math": False,  # names of scenes are no formulas
+    "axes.formatter.useoffset": False,  # ticks say what they are, and no difference from a number above the axis
     "axes.edgecolor": "#50555c", "lines.linewidth": 1.6, "legend.frameon": False, "figure.dpi": 110, "savefig.dpi": 150,
 }
 
