@@ -114,10 +114,10 @@ expect_error(delam("check", write(changed("steps = 20", 'steps = 4\n[output]\nco
 hard = changed('name = "ductile"', 'name = "ductile"\nkind = "griffith"')
 hard = "".join(line for line in hard.splitlines(True) if "onset" not in line)
 for solution, told in (("local", True), ("energetic", False)):
-    out = folder()
-    code, closing, words = delam("run", write(hard), "--out", out, "--set", "time.steps=4", "--set", f'solver.solution="{solution}"',
+    waits = folder()
+    code, closing, words = delam("run", write(hard), "--out", waits, "--set", "time.steps=4", "--set", f'solver.solution="{solution}"',
                                  "--set", "laws.0.normal_stiffness=1e16", "--set", "laws.0.tangential_stiffness=1e16")
-    times = json.loads(read(os.path.join(out, "result.json")))["energy_release_rate_over_toughness"]
+    times = json.loads(read(os.path.join(waits, "result.json")))["energy_release_rate_over_toughness"]
     expect(("the law does not soften" in closing + words) == told and (times is not None and times > 1.25) == told and
            ("times the largest toughness" in closing) == told, f"{solution}: {times}, {closing[-400:]}")
 
