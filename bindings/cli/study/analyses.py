@@ -18,12 +18,11 @@ from _pictures.input_file import LAST_WORDS, MOST_RESULT, Unreadable, quoted, re
 from command import DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, OUTPUT, WRONG, Trouble
 
 __all__ = ["DONE", "INTERRUPTED", "NOT_CONVERGED", "NUMERICAL", "OUTPUT", "WRONG", "Check", "Trouble", "analyse", "end_all",
-           "given_words", "hold", "keep_warnings", "last_words", "make_folder", "number_in", "path_of", "read_about", "read_history",
+           "given_words", "hold", "last_words", "make_folder", "number_in", "path_of", "read_about", "read_history",
            "refuse_set", "run_study", "setting", "value_at", "warnings_of"]
 
 # Numbers whose squares, and sums and quotients of those, are still numbers with all digits.
 LEAST, MOST = 1e-150, 1e150
-MOST_LOG = 2 ** 22  # bytes of a log in which warnings are looked for: that of 40 000 steps
 
 
 def given_words():
@@ -202,20 +201,10 @@ def last_words(out):
 
 
 def warnings_of(out):
-    """The warnings of an analysis."""
-    if not os.path.isfile(out + ".log"):
-        return []
-    lines = read_end(out + ".log", MOST_LOG).decode("utf-8", "replace").split("\n")
-    return [line.removeprefix("delam: ").removeprefix("warning: ") for line in lines if line.startswith(("warning: ", "delam: warning: "))]
-
-
-def keep_warnings(out, lines):
-    """Adds warnings to a log: one that goes on has not those of the steps before."""
-    if not lines:
-        return
-    flags = os.O_WRONLY | os.O_APPEND | os.O_NOFOLLOW | os.O_CLOEXEC
-    with os.fdopen(os.open(out + ".log", flags), "w", encoding="utf-8") as log:
-        log.writelines(f"warning: {line}\n" for line in lines)
+    """The warnings of a result: of its scene, and its closing lines. Those of single steps are in the log alone."""
+    about = read_about(out)
+    closing = [line.removeprefix("warning: ") for line in about.get("closing", []) if line.startswith("warning: ")]
+    return [*about.get("warnings", []), *closing]
 
 
 def read_history(out):

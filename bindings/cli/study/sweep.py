@@ -29,7 +29,7 @@ import numpy as np  # noqa: E402
 from _pictures.input_file import MOST_MESH, MOST_SCENE, MOST_SWEEP, Unreadable, read_bytes, read_json  # noqa: E402
 from command import complain, loading, on_interrupt, say  # noqa: E402
 from analyses import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Check, Trouble, analyse, end_all,  # noqa: E402
-                     given_words, hold, keep_warnings, last_words, read_about, read_history, refuse_foreign_log,  # noqa: E402
+                     given_words, hold, last_words, read_about, read_history, refuse_foreign_log,  # noqa: E402
                      refuse_set, run_study, setting, warnings_of)
 from fit_model import with_hint  # noqa: E402
 from measured.units import unit_of_key  # noqa: E402
@@ -158,11 +158,7 @@ class Sweep:
         out = self.folder(number)
         if self.ended.is_set():
             return
-        resume = self.can_resume(out)
-        before = warnings_of(out) if resume else []
-        code = analyse(self.scene, out, self.settings(self.points[number]), resume=resume)
-        now = warnings_of(out)
-        keep_warnings(out, [text for text in before if text not in now])
+        code = analyse(self.scene, out, self.settings(self.points[number]), resume=self.can_resume(out))
         with self.lock:
             if code == INTERRUPTED or self.ended.is_set():
                 return

@@ -43,6 +43,7 @@ extern "C" std::int32_t on_progress(const char* stage, std::int64_t done, std::i
 struct Log {
     Progress& progress;
     const Model& model;
+    std::vector<std::string>* of_scene;  // keeps the warnings before the first step; null: there was one
 };
 
 extern "C" void on_log(std::int32_t level, const char* text, void* user) {
@@ -51,7 +52,9 @@ extern "C" void on_log(std::int32_t level, const char* text, void* user) {
     const Log& log = *static_cast<Log*>(user);
     if (level > 1) return;
     try {
-        log.progress.note(fmt::format("{}: {}", level == 0 ? "error" : "warning", said_of_scene(text, log.model)));
+        const std::string said = said_of_scene(text, log.model);
+        if (level == 1 && log.of_scene != nullptr) log.of_scene->push_back(said);
+        log.progress.note(fmt::format("{}: {}", level == 0 ? "error" : "warning", said));
     } catch (const std::exception&) {
         // There is no memory for the words; what ends the run says so.
     }
@@ -365,17 +368,21 @@ struct Analysis {
     Progress& progress;
     const std::string& command;  // as typed
     const std::string& again;    // that reproduces the result
+    Log& log;
     Bulk* bulk;
 };
 
 // Everything after the words of the beginning.
 int analyse(const Analysis& of) {
-    const auto& [scene, model, state, folder, progress, command, again, bulk] = of;
+    const auto& [scene, model, state, folder, progress, command, again, log, bulk] = of;
     bool converged = true;
     Solver solver = new_solver(model, scene, converged);
+    std::vector<std::string>& warnings = *log.of_scene;
+    log.of_scene = nullptr;
     if (!converged) say("warning: the displacement of the initial state did not converge\n");
     Outcome outcome;
     outcome.command = command;
+    outcome.warnings = std::move(warnings);
     Run work(scene, model, std::move(solver), converged, folder, bulk);
     Exit code = exit_done;
     try {
@@ -441,15 +448,16 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
                                   scene.file));
     const std::int64_t first = state ? state->state.step : 0;
     progress.begin_after(first);
-    Log log{progress, model};
+    std::vector<std::string> warnings = warnings_of(model, scene);
+    Log log{progress, model, &warnings};
     delam_context_set_log(model.context.get(), on_log, &log);
     say("delam {} ({}): {}{}\n", delam_version(), delam_commit(), scene_file,
         scene.title.empty() ? "" : ", " + scene.title);
     if (resume) say("{}\n", state ? fmt::format("resumed after step {}", first) : "nothing to resume: started anew");
-    for (const std::string& text : warnings_of(model, scene)) say("warning: {}\n", text);
+    for (const std::string& text : warnings) say("warning: {}\n", text);
     std::fflush(stdout);
 
-    const Analysis analysis{scene, model, state, folder, progress, command, again, caller.bulk};
+    const Analysis analysis{scene, model, state, folder, progress, command, again, log, caller.bulk};
     const auto rest = [&] { return analyse(analysis); };
     return caller.around ? caller.around(model, rest) : rest();
 }

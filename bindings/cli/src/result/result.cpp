@@ -217,6 +217,7 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
         {"steps_done", outcome.steps_done},
         {"steps", scene.step_count()},
         {"not_converged", outcome.not_converged},
+        {"warnings", outcome.warnings},
         {"closing", outcome.closing_lines},
         {"jumps", jumps_json(outcome.closing.jumps, scene)},
         {"energy_balance", balance_json(outcome.closing.balance)},

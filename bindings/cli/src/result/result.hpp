@@ -18,6 +18,7 @@ struct Outcome {
     std::int64_t steps_done = 0;
     std::vector<std::int64_t> not_converged;
     Closing closing;
+    std::vector<std::string> warnings;  // of the scene, before the first step
     std::vector<std::string> closing_lines;
     bool has_jumps = false;  // there is a jumps.csv
     std::int64_t resumed = 0;
