@@ -106,6 +106,7 @@ public:
     LoadPath(Stepper& stepper, const PairGraph& graph, const State& before, double end, const Options& options)
         : stepper_(stepper),
           options_(options),
+          begin_(before.time),
           end_(end),
           at_(before),
           graph_(graph),
@@ -140,7 +141,7 @@ private:
 
     Stepper& stepper_;
     const Options& options_;
-    double end_;
+    double begin_, end_;
     State at_;  // end of the parts accepted so far
     const PairGraph& graph_;
     GrowthEvents events_;
@@ -225,7 +226,7 @@ std::optional<Trial> LoadPath::attempt_below_limit(Plan& plan, bool along_path) 
     } catch (const Error& error) {
         if (error.status() != DELAM_LIMIT) throw;
         const double from = std::max(plan.start, at_.time), left = plan.reach - from;
-        const bool known = !(left > plan.shortest) || left <= located * std::max(std::abs(plan.reach), std::abs(from));
+        const bool known = left <= std::max(plan.shortest, located * std::max(std::abs(from), end_ - begin_));
         if (!known || (plan.start > at_.time && left > 0.0)) {
             plan.reach = known ? plan.start : from + length_of_part(0.5 * left);
             return {};
