@@ -218,7 +218,7 @@ class Runner:
         log.parent.mkdir(parents=True, exist_ok=True)
         with open(log, "w", encoding="utf-8") as output:
             process = child.start(command, stdout=output, stderr=subprocess.STDOUT, cwd=ROOT,
-                                  env=case_module.environment(a.build / "lib", case.timing))
+                                  env=case_module.environment(a.build / "lib", case.timing and not a.quick))
             with self.lock:
                 self.running[process.pid] = process
             try:
