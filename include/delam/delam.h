@@ -1479,7 +1479,8 @@ DELAM_API int32_t delam_solver_look(delam_solver *solver, int64_t step);
  * state counts even if it releases nothing.
  * Where steps follow their load (`step_control = auto` or `load`), a jump is an advance da during which the load M
  * hardly rises, dlnM <= 0.03 da/A. A is the area of the interface, and da that on which the toughness is dissipated. It
- * extends over more than 2.5 pairs of each front or over half of the interface, and may release nothing.
+ * extends over more than 2.5 pairs of each front or over half of the interface, and may release nothing. Where nothing
+ * adheres between fronts afterwards, more than one pair of each is a jump.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_jump_count(const delam_solver *solver, int64_t *count);
 /* Returns one jump of the state, in step *step. It lies between *before and *time: in the interval that bisection has

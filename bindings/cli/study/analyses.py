@@ -94,7 +94,7 @@ class Worker:
         except BrokenPipeError:
             answer = ""
         self.lives = answer != ""
-        return int(answer) if self.lives else self.child.wait()
+        return int(answer) if self.lives else self.child.wait() or NUMERICAL
 
 
 busy, idle = [], []  # workers

@@ -116,7 +116,8 @@ private:
     std::vector<Strain> eigenstrains(const State& state) const;
     // Returns the stress at the centres of the cells, of any state with small rotations.
     std::vector<double> stress(const State& state);
-    // Returns the energy that the strains of rotations add, to fourth order in these, F L; NaN: not known.
+    // Returns the energy that the strains of rotations add, to fourth order in these, F L. Where a part is free to
+    // move, the work of the stresses is all of it that is known.
     double energy_of_rotations(const State& state);
     // The springs at the adhesion of a state, with pairs held that contact presses together; touching: normal rows of
     // pairs that touch without a force, [rows].

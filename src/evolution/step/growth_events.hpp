@@ -4,8 +4,9 @@
 //   dlnM <= eps da/A       (A: the interface; the whole of it would debond for 3 % more load),
 //
 // are flat, and with their neighbours, as long as the whole is flat, an event. It is a jump if it extends over more
-// than 2.5 pairs of each front, or over half of the interface, whatever it releases; else a pair that pops, because the
-// mesh does not resolve the process zone.
+// than 2.5 pairs of each front, or over half of the interface, whatever it releases, or over more than one pair of each
+// where nothing adheres between fronts any more; else a pair that pops, because the mesh does not resolve the process
+// zone.
 #pragma once
 
 #include <cstdint>

@@ -342,7 +342,7 @@ void add_own(CLI::App& app, Arguments& into, Commands& of) {
     of.own->add_option("action", into.page)->required()->check(CLI::IsMember({"claim", "discard"}));
     of.own->add_option("names", into.names)->required();
     of.own->add_flag("--known", into.known);
-    of.serve = app.add_subcommand("serve", "runs analyses of a study (study/MANUAL.md)")->group("");
+    of.serve = app.add_subcommand("serve", "run analyses of a study")->group("");
 }
 
 void add_studies(CLI::App& app, Arguments& into, Commands& of) {

@@ -106,8 +106,7 @@ void contact_warning(const Model& model, const Scene& scene, std::vector<std::st
     const auto others = std::count(free + 1, held.end(), false);
     out.push_back(fmt::format(
         "general contact takes in no face of body \"{}\"{}, so that it passes through other bodies: its nearest node "
-        "is "
-        "{:.4g} away from \"{}\", and contact.gap is {:.4g}; {:.3g} would take it in",
+        "is {:.4g} away from \"{}\", and contact.gap is {:.4g}; {:.3g} would take it in",
         scene.layers[body].name, others > 0 ? fmt::format(" and of {} other{}", others, others > 1 ? "s" : "") : "",
         near.distance, scene.layers[static_cast<std::size_t>(near.body)].name, scene.general_contact->gap,
         1.01 * near.distance));
