@@ -179,7 +179,7 @@ DELAM_API int32_t delam_context_set_progress(delam_context *context, delam_progr
  * increments a lock-free counter. A request stops one call. It may find none to stop: no call is running, or the
  * running one makes no further check or fails because of its arguments. The request then waits and stops the next call
  * of one of these functions:
- *   delam_solver_create, _advance, _equilibrate, _tangent, _step_tangent, _load, _load_file
+ *   delam_solver_create, _create_like, _advance, _equilibrate, _tangent, _step_tangent, _load, _load_file
  *   delam_problem_set_stiffness
  * The other functions that list `cancelled` only build or read; a request stops them only if it arrives while they run.
  * [status only handle; thread any; since 0.1] */
@@ -987,6 +987,23 @@ DELAM_API int32_t delam_problem_plan(delam_problem *problem, const char **plan, 
  * [unit time t finite; null none; owns out caller; status not_converged, cancelled, limit, argument, mesh, problem,
  * numerical; source src/reduction/README.md; since 0.1] */
 DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time, delam_solver **out);
+/* Creates a solver, as delam_solver_create does, that shares the condensed bodies of another solver of the same
+ * context. They are shared if meshes, materials, formulations, supports, loads and gaps of both are equal. Laws,
+ * initial adhesion, histories of patterns and options may differ, e.g. from one trial of a fit to the next. States and
+ * results are those of delam_solver_create, digit by digit; assembly and condensation of the bodies are saved.
+ * If the bodies differ, or if one of the two solvers does not condense them, the new solver makes its own operator. The
+ * plan tells which: "set by a solver that has condensed the same bodies". `other` may be destroyed at any time; what is
+ * shared lives as long as the last solver that uses it. If `other` is NULL, nothing is shared.
+ * DELAM_ERROR_ARGUMENT: `other` belongs to another context.
+ * [unit time t finite; null other; owns out caller; status not_converged, cancelled, limit, argument, mesh, problem,
+ * numerical; source src/reduction/README.md; since 0.2] */
+DELAM_API int32_t delam_solver_create_like(const delam_problem *problem, const delam_solver *other, double time,
+                                           delam_solver **out);
+/* Tells whether delam_solver_create_like would share the condensed bodies of this solver: *shares is 1 if they are
+ * equal, and neither the solver nor the options of the problem ask for another operator; else 0. The host may then
+ * destroy the solver before it creates one that makes its own.
+ * [null none; status argument; since 0.2] */
+DELAM_API int32_t delam_solver_shares_bodies(const delam_solver *solver, const delam_problem *problem, int32_t *shares);
 /* Destroys a solver and its state.
  * [null solver, *solver; owns solver destroyed; status -; since 0.1] */
 DELAM_API void delam_solver_destroy(delam_solver **solver);

@@ -17,6 +17,7 @@
 #include "evolution/analysis/solver.hpp"
 #include "evolution/observe/fields.hpp"
 #include "evolution/observe/values.hpp"
+#include "reduction/choice/shared_design.hpp"
 
 using namespace delam;
 
@@ -48,24 +49,47 @@ std::int32_t guard_step(delam_solver* solver, Listed listed, Body&& body) noexce
     });
 }
 
+std::int32_t create(const delam_problem& problem, const Solver* other, double time, delam_solver** out) {
+    require_pointer(out, "out");
+    require_finite(&time, 1, "time");
+    const TeamScope team(useful_threads(problem.core->options.threads));
+    auto handle = std::make_unique<delam_solver>();
+    handle->context = problem.context;
+    handle->core = std::make_shared<Solver>(*problem.core, problem.context->monitor, time, other);
+    handle->value_names = value_names(handle->core->problem());
+    handle->plan = plan_of(*handle->core);
+    const Outcome& outcome = handle->core->initial_outcome();
+    *out = handle.release();
+    return report(*problem.context, outcome);
+}
+
 }  // namespace
 
 extern "C" {
 
 int32_t delam_solver_create(const delam_problem* problem, double time, delam_solver** out) {
     if (out != nullptr) *out = nullptr;
-    return guard_solve(problem, listed::solver_create, [&] {
-        require_pointer(out, "out");
-        require_finite(&time, 1, "time");
-        const TeamScope team(useful_threads(problem->core->options.threads));
-        auto handle = std::make_unique<delam_solver>();
-        handle->context = problem->context;
-        handle->core = std::make_shared<Solver>(*problem->core, problem->context->monitor, time);
-        handle->value_names = value_names(handle->core->problem());
-        handle->plan = plan_of(*handle->core);
-        const Outcome& outcome = handle->core->initial_outcome();
-        *out = handle.release();
-        return report(*problem->context, outcome);
+    return guard_solve(problem, listed::solver_create, [&] { return create(*problem, nullptr, time, out); });
+}
+
+int32_t delam_solver_create_like(const delam_problem* problem, const delam_solver* other, double time,
+                                 delam_solver** out) {
+    if (out != nullptr) *out = nullptr;
+    return guard_solve(problem, listed::solver_create_like, [&] {
+        if (other != nullptr) {
+            if (!alive(other)) fail(DELAM_ERROR_HANDLE, "other: no solver, or a destroyed one");
+            if (other->context != problem->context)
+                fail(DELAM_ERROR_ARGUMENT, "other: a solver of another context than the problem's");
+        }
+        return create(*problem, other != nullptr ? other->core.get() : nullptr, time, out);
+    });
+}
+
+int32_t delam_solver_shares_bodies(const delam_solver* solver, const delam_problem* problem, int32_t* shares) {
+    return guard(solver, [&] {
+        require_pointer(shares, "shares");
+        if (!alive(problem)) fail(DELAM_ERROR_HANDLE, "problem: no problem, or a destroyed one");
+        *shares = shares_bodies(*problem->core, solver->core->stepper().design()) ? 1 : 0;
     });
 }
 

@@ -127,7 +127,22 @@ void add_law(Fnv& fnv, const Law& law) {
     law.hash_shape([&](const auto& held) { fnv.add(held); });
 }
 
-void add_loads(Fnv& fnv, const Problem& problem) {
+void add_gap(Fnv& fnv, const InterfaceProperties& interface) {
+    if (interface.gap.empty()) return;
+    fnv.add(interface.gap_pattern);
+    fnv.add_all(interface.gap);
+}
+
+void add_bodies(Fnv& fnv, const Problem& problem) {
+    add_mesh(fnv, *problem.mesh);
+    fnv.add(static_cast<std::int64_t>(problem.plane));
+    for (const std::optional<Material>& material : problem.material) add_material(fnv, material);
+    if (problem.orientation != nullptr) add_orientation(fnv, *problem.orientation);
+    for (const Formulation formulation : problem.formulation) fnv.add(static_cast<std::int64_t>(formulation));
+    add_stiffness(fnv, problem);
+}
+
+void add_patterns(Fnv& fnv, const Problem& problem) {
     fnv.add(static_cast<std::int64_t>(problem.patterns.size()));
     for (const Pattern& pattern : problem.patterns) {
         fnv.add(pattern.name);
@@ -135,6 +150,9 @@ void add_loads(Fnv& fnv, const Problem& problem) {
         fnv.add_all(pattern.values);
         fnv.add(static_cast<std::int64_t>(pattern.drives));
     }
+}
+
+void add_loads(Fnv& fnv, const Problem& problem) {
     fnv.add(static_cast<std::int64_t>(problem.constraints.size()));
     for (const Constraint& constraint : problem.constraints) {
         poll_cancel("check", 1 + static_cast<std::int64_t>(constraint.dof.size()) / 8);
@@ -186,24 +204,31 @@ std::uint64_t hash(const Law& law) {
 
 std::uint64_t hash(const Problem& problem) {
     Fnv fnv;
-    add_mesh(fnv, *problem.mesh);
-    fnv.add(static_cast<std::int64_t>(problem.plane));
-    for (const std::optional<Material>& material : problem.material) add_material(fnv, material);
-    if (problem.orientation != nullptr) add_orientation(fnv, *problem.orientation);
-    for (const Formulation formulation : problem.formulation) fnv.add(static_cast<std::int64_t>(formulation));
-    add_stiffness(fnv, problem);
+    add_bodies(fnv, problem);
     for (const InterfaceProperties& interface : problem.interfaces) {
         fnv.add(interface.bonded);
         fnv.add(interface.contact);
         fnv.add(interface.law.has_value());
         if (interface.law) add_law(fnv, *interface.law);
         fnv.add_all(interface.adhesion);
-        if (interface.gap.empty()) continue;
-        fnv.add(interface.gap_pattern);
-        fnv.add_all(interface.gap);
+        add_gap(fnv, interface);
     }
+    add_patterns(fnv, problem);
     add_loads(fnv, problem);
     return hash(problem.options, fnv.value);
+}
+
+std::uint64_t hash_of_bodies(const Problem& problem) {
+    Fnv fnv;
+    add_bodies(fnv, problem);
+    for (const InterfaceProperties& interface : problem.interfaces) {
+        fnv.add(interface.bonded);
+        add_gap(fnv, interface);
+    }
+    fnv.add(static_cast<std::int64_t>(problem.patterns.size()));
+    for (const Pattern& pattern : problem.patterns) fnv.add(static_cast<std::int64_t>(pattern.drives));
+    add_loads(fnv, problem);
+    return fnv.value;
 }
 
 }  // namespace delam

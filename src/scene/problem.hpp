@@ -122,6 +122,8 @@ void require_material(const Problem& problem, std::int32_t body);
 
 // FNV-1a over everything that determines the result, the options included.
 std::uint64_t hash(const Problem& problem);
+// The same over what the condensed bodies follow from: neither laws, adhesion and options, nor histories of loads.
+std::uint64_t hash_of_bodies(const Problem& problem);
 // The same over everything that determines what a law answers.
 std::uint64_t hash(const Law& law);
 

@@ -345,6 +345,9 @@ ROWS = {
     ("solver_create", "not_converged"): (unbalanced, lambda s: [s.problem, 1.0, c_void_p()]),
     ("solver_create", "mesh"): (folded, usual("solver_create")),
     ("solver_create", "problem"): (bare, usual("solver_create")),
+    ("solver_create_like", "not_converged"): (unbalanced, lambda s: [s.problem, None, 1.0, c_void_p()]),
+    ("solver_create_like", "mesh"): (folded, lambda s: [s.problem, None, 0.0, c_void_p()]),
+    ("solver_create_like", "problem"): (bare, lambda s: [s.problem, None, 0.0, c_void_p()]),
     ("solver_advance", "not_converged"): (lambda: with_options(("minimisation_limit", 1.0), time=0.0),
                                           lambda s: [s.solver, 0.5]),
     ("solver_advance", "limit"): (lambda: loose_part(0.0), lambda s: [s.solver, 1.0]),
@@ -400,13 +403,14 @@ UNSEEN = {
                                             "matrix, which name the argument",
     ("solver_create", "limit"): "it guards against dead loads on a part that only contact holds; what delam_problem_check "
                                 "sees beforehand is DELAM_ERROR_PROBLEM",
+    ("solver_create_like", "limit"): "as solver_create",
     ("solver_recorded_size", "argument"): "both outputs may be NULL; the list is older and may only shrink",
     ("solver_condensed_size", "argument"): "both outputs may be NULL; the list is older and may only shrink",
 }
 
 
 # A request to cancel that found nothing to stop waits for the next of these calls; all other calls let it wait.
-STOPPED = {"problem_set_stiffness", "solver_create", "solver_advance", "solver_equilibrate", "solver_tangent",
+STOPPED = {"problem_set_stiffness", "solver_create", "solver_create_like", "solver_advance", "solver_equilibrate", "solver_tangent",
            "solver_step_tangent", "solver_load", "solver_load_file"}
 
 

@@ -321,6 +321,8 @@ CALLS = {
     "problem_value_info": (full, lambda s: [s.problem, 0, c_void_p(), c_void_p()]),
     "problem_plan": (full, lambda s: [s.problem, c_void_p(), real(0), real(0)]),
     "solver_create": (full, lambda s: [s.problem, 0.0, c_void_p()]),
+    "solver_create_like": (full, lambda s: [s.problem, s.solver, 0.0, c_void_p()]),
+    "solver_shares_bodies": (full, lambda s: [s.solver, s.problem, short(0)]),
     "solver_advance": (full, lambda s: [s.solver, 0.5]),
     "solver_commit": (lambda: full().analysed(), lambda s: [s.solver]),
     "solver_rollback": (lambda: full().analysed(), lambda s: [s.solver]),

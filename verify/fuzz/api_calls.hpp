@@ -338,6 +338,22 @@ inline const Call calls[] = {
              });
          });
      }},
+    {"delam_solver_create_like", Subject::problem,
+     may::not_converged | may::cancelled | may::limit | may::argument | may::mesh | may::problem | may::numerical,
+     [](const Asked& a) {
+         return watched(a.world, a.in, [&] {
+             return a.world.make(a.world.solver, a.in, a.host, [&](delam_solver** o) {
+                 return IN_ORDER(delam_solver_create_like, a.problem,
+                                 a.world.solver.handle[static_cast<std::size_t>(a.in.below(slots))], 0.0, o);
+             });
+         });
+     }},
+    {"delam_solver_shares_bodies", Subject::solver, may::argument,
+     [](const Asked& a) {
+         std::int32_t shares = 0;
+         const delam_problem* problem = a.world.problem.handle[static_cast<std::size_t>(a.in.below(slots))];
+         return problem == nullptr ? DELAM_OK : delam_solver_shares_bodies(a.solver, problem, &shares);
+     }},
 
     {"delam_solver_advance", Subject::solver,
      may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::state | may::numerical,

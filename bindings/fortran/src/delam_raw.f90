@@ -921,6 +921,15 @@ module delam_raw
       type(c_ptr), intent(inout) :: out
       integer(c_int32_t) :: status
     end function delam_solver_create
+    function delam_solver_create_like(problem, other, time, out) bind(c, name="delam_solver_create_like") &
+        result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: problem
+      type(c_ptr), value :: other
+      real(c_double), value :: time
+      type(c_ptr), intent(inout) :: out
+      integer(c_int32_t) :: status
+    end function delam_solver_create_like
     subroutine delam_solver_destroy(solver) bind(c, name="delam_solver_destroy")
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
       type(c_ptr), intent(inout) :: solver

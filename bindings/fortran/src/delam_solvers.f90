@@ -68,16 +68,22 @@ contains
     call next_owner(self, other)
   end subroutine same_solver
 
-  subroutine solver_create(self, problem, time, status, message)
+  ! like: shares the condensed bodies of another solver, if they are equal (delam_solver_create_like).
+  subroutine solver_create(self, problem, time, status, message, like)
     class(delam_solver), intent(inout) :: self
     type(delam_problem), intent(in) :: problem
     real(delam_real), intent(in) :: time
     integer, intent(out), optional :: status
     character(*), intent(out), optional :: message
+    type(delam_solver), intent(in), optional :: like
     type(shared), pointer :: made, of
     integer(c_int32_t) :: code
     allocate(made)
-    code = delam_solver_create(problem%handle(), time, made%handle)
+    if (present(like)) then
+      code = delam_solver_create_like(problem%handle(), like%handle(), time, made%handle)
+    else
+      code = delam_solver_create(problem%handle(), time, made%handle)
+    end if
     if (c_associated(made%handle)) then
       of => shared_of(problem)
       if (delam_problem_pattern_count(problem%handle(), made%patterns) /= DELAM_OK) made%patterns = 0

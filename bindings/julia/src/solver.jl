@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 """
-    Solver(problem; time=0.0, not_converged=:warn)
+    Solver(problem; time=0.0, not_converged=:warn, like=nothing)
 
-The state of a problem, which is taken as it is now, from `time` on.
+The state of a problem, which is taken as it is now, from `time` on. `like`: another solver, whose condensed bodies are
+shared if they are equal (laws, adhesion, histories and options may differ).
 
     advance!(solver, 0.05)      # pending: can be read, then
     commit!(solver)             # kept, or rollback!(solver)
@@ -23,11 +24,11 @@ mutable struct Solver <: Object
         finalizer(release, new(handle, problem.context, problem, not_converged, copy(problem.kept)))
 end
 
-function Solver(problem::Problem; time=0.0, not_converged=:warn)
+function Solver(problem::Problem; time=0.0, not_converged=:warn, like=nothing)
     not_converged in (:warn, :throw, :ignore) ||
         throw(InvalidArgument("not_converged = $not_converged, expected :warn, :throw or :ignore"))
     handle, status = made(Raw.delam_solver, problem; accepted=Raw.DELAM_NOT_CONVERGED) do scene, out
-        Raw.delam_solver_create(scene, time, out)
+        GC.@preserve like Raw.delam_solver_create_like(scene, like === nothing ? C_NULL : like.handle, time, out)
     end
     solver = Solver(handle, problem, not_converged)
     tell_outcome(solver, status)

@@ -332,5 +332,88 @@ class Outcomes(unittest.TestCase):
         self.assertTrue(any("pairs" in line for line in caught.output))
 
 
+class SharedBodies(unittest.TestCase):
+    """Solvers that share the condensed bodies of another one: the same digits, and no second condensation."""
+
+    KEYS = ("reaction:opening", "work", "dissipated", "released", "front:0", "am_iterations")
+
+    def walk(self, solver):
+        history = solver.history(np.linspace(0.05, 1.0, 20), self.KEYS)
+        return [history[key] for key in self.KEYS] + [solver.field(key) for key in ("displacement", "adhesion")]
+
+    def test_the_same_digits(self):
+        problem = support.double_cantilever()
+        first = delam.Solver(problem)
+        self.walk(first)
+        for toughness in (280.0, 350.0, 200.0):
+            problem.set_law(0, support.bilinear(normal_toughness=toughness, tangential_toughness=toughness))
+            alone = delam.Solver(problem)
+            shared = delam.Solver(problem, like=first)
+            self.assertEqual((alone.values["bulk_factorisations"], shared.values["bulk_factorisations"]), (1, 0))
+            first.close()
+            for own, other in zip(self.walk(alone), self.walk(shared)):
+                np.testing.assert_array_equal(own, other)
+            self.assertEqual(alone.save(), shared.save())
+            reason = {item.subject: item.reason for item in shared.plan_items}["condensed operator"]
+            self.assertIn("a solver that has condensed the same bodies", reason)
+            first = shared
+
+    def test_at_the_same_time(self):
+        problem = support.double_cantilever()
+        first = delam.Solver(problem)
+        second = delam.Solver(problem, like=first)
+        for time in (0.2, 0.4, 0.6):
+            for solver in (first, second):
+                solver.advance(time)
+                solver.commit()
+        self.assertEqual(first.save(), second.save())
+
+    def test_adhesion_and_options(self):
+        problem = support.double_cantilever()
+        first = delam.Solver(problem)
+        interface = problem.mesh.interfaces[0]
+        problem.set_adhesion(interface, interface.places[:, 0] < 0.05, 0.0)
+        problem.options["solution"] = "energetic"
+        alone, shared = delam.Solver(problem), delam.Solver(problem, like=first)
+        self.assertEqual(shared.values["bulk_factorisations"], 0)
+        for own, other in zip(self.walk(alone), self.walk(shared)):
+            np.testing.assert_array_equal(own, other)
+
+    def test_other_bodies(self):
+        problem = support.double_cantilever()
+        first = delam.Solver(problem)
+        changes = (lambda: problem.set_elastic(70e9, 0.3), lambda: problem.set_formulation("standard"),
+                   lambda: problem.add_forces(problem.add_pattern("more", [0, 1], [0, 1]),
+                                              problem.mesh.find_node((0, 3e-3)), (1.0, 0.0)))
+        for change in changes:
+            change()
+            alone, other = delam.Solver(problem), delam.Solver(problem, like=first)
+            self.assertEqual(other.values["bulk_factorisations"], 1)
+            alone.advance(0.3)
+            other.advance(0.3)
+            self.assertEqual(alone.values["work"], other.values["work"])
+
+    def test_other_operators(self):
+        problem = support.double_cantilever()
+        first = delam.Solver(problem)
+        for key, value in (("reduction", "iterated"), ("reduction", "feti"), ("kinematics", "corotational")):
+            problem.options[key] = value
+            solver = delam.Solver(problem, like=first)
+            solver.advance(0.2)
+            self.assertNotIn("a solver that has", solver.plan)
+            first = solver
+
+    def test_refused(self):
+        problem = support.double_cantilever()
+        with self.assertRaisesRegex(delam.ArgumentError, "other: a solver of another context"):
+            delam.Solver(problem, like=delam.Solver(support.double_cantilever()))
+        with self.assertRaisesRegex(delam.ArgumentError, "like = 3, expected a Solver or None"):
+            delam.Solver(problem, like=3)
+        closed = delam.Solver(problem)
+        closed.close()
+        with self.assertRaises(delam.DelamError):
+            delam.Solver(problem, like=closed)
+
+
 if __name__ == "__main__":
     support.main()

@@ -51,6 +51,9 @@ inline constexpr Listed problem_plan =
 inline constexpr Listed solver_create =
     Listed::of(DELAM_NOT_CONVERGED, DELAM_CANCELLED, DELAM_LIMIT, DELAM_ERROR_ARGUMENT, DELAM_ERROR_MESH,
                DELAM_ERROR_PROBLEM, DELAM_ERROR_NUMERICAL);
+inline constexpr Listed solver_create_like =
+    Listed::of(DELAM_NOT_CONVERGED, DELAM_CANCELLED, DELAM_LIMIT, DELAM_ERROR_ARGUMENT, DELAM_ERROR_MESH,
+               DELAM_ERROR_PROBLEM, DELAM_ERROR_NUMERICAL);
 inline constexpr Listed solver_advance =
     Listed::of(DELAM_NOT_CONVERGED, DELAM_CANCELLED, DELAM_LIMIT, DELAM_ERROR_ARGUMENT, DELAM_ERROR_PROBLEM,
                DELAM_ERROR_STATE, DELAM_ERROR_NUMERICAL);

@@ -12,7 +12,7 @@ namespace delam {
 namespace {
 
 const Bulk& bulk_of(const Solver& solver) {
-    const Bulk* bulk = solver.stepper().design().condensed;
+    const Bulk* bulk = solver.stepper().design().bulk.get();
     if (solver.problem().options.kinematics != "linear")
         fail(DELAM_ERROR_STATE, "with kinematics = ", solver.problem().options.kinematics,
              " there is no condensed operator that would hold in all steps");

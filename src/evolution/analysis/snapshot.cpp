@@ -231,7 +231,7 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     std::vector<JumpEvent> jumps = read_list<JumpEvent>(r);
     Record record;
     if (found_version >= 7) record = read_record(r, solver);
-    if (found_version < 10 && solver.stepper().design().condensed != nullptr) {
+    if (found_version < 10 && solver.stepper().design().bulk != nullptr) {
         forget_zones(state);
         for (State& earlier : past) forget_zones(earlier);
     }

@@ -75,14 +75,14 @@ std::string what_did_not_converge(const State& state, const Options& options) {
 
 }  // namespace
 
-Solver::Solver(const Problem& problem, Monitor& monitor, double time)
+Solver::Solver(const Problem& problem, Monitor& monitor, double time, const Solver* other)
     : problem_(with_used_control(problem)),
       given_(problem.options),
       control_(used_step_control(problem, problem.options)),
       first_patterns_(problem.patterns),
       scene_hash_(hash(problem)),
       monitor_(monitor),
-      stepper_(problem_, monitor),
+      stepper_(problem_, monitor, Stepper::Checks::made_here, other != nullptr ? &other->stepper_ : nullptr),
       graph_(problem_.mesh->interfaces()),
       states_(keeps_past(problem_.options) ? problem_.options.backtracking_depth : 0),
       observer_(problem_, reading_operator(stepper_, problem_, monitor), stepper_.pairs(), stepper_.contact(),

@@ -26,8 +26,8 @@ struct Outcome {
 
 class Solver {
 public:
-    // The monitor must outlive the solver.
-    Solver(const Problem& problem, Monitor& monitor, double time);
+    // The monitor must outlive the solver. other: the new one shares its condensed bodies, if they are the same.
+    Solver(const Problem& problem, Monitor& monitor, double time, const Solver* other = nullptr);
     Solver(const Solver&) = delete;  // the stepper points into problem_
     Solver& operator=(const Solver&) = delete;
 

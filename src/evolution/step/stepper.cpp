@@ -14,6 +14,7 @@
 #include "evolution/step/contact_work.hpp"
 #include "evolution/step/energetic_jump.hpp"
 #include "evolution/step/pairs_of_scene.hpp"
+#include "reduction/choice/shared_design.hpp"
 #include "scene/check/validate.hpp"
 
 namespace delam {
@@ -46,7 +47,8 @@ PathCosts costs_of(const PairLaws& pairs, std::span<const double> along, const S
 
 }  // namespace
 
-Stepper::Stepper(const Problem& problem, Monitor& monitor, Checks checks) : problem_(problem), monitor_(monitor) {
+Stepper::Stepper(const Problem& problem, Monitor& monitor, Checks checks, const Stepper* other)
+    : problem_(problem), monitor_(monitor) {
     const Poll checking = [this] { monitor_.progress("check", 0, 0); };
     if (checks == Checks::made_here) validate(problem_, checking);
     parts_ = std::make_unique<const FreeParts>(problem_);
@@ -57,7 +59,8 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor, Checks checks) : prob
     graph_ = PairGraph(problem_.mesh->interfaces());
     rule_.emplace(pairs_, problem_.options.mixity_rule);
     call_if_set(checking);
-    design_ = design_operator(problem_, monitor_);
+    std::optional<Design> shared = other != nullptr ? shared_design(problem_, other->design_) : std::nullopt;
+    design_ = shared ? std::move(*shared) : design_operator(problem_, monitor_);
     if (problem_.options.kinematics != "linear") {
         // Bodies that rotate have no operator that would hold in all steps (turned_steps.hpp).
         ReductionChoice choice = std::move(design_.choice);

@@ -28,8 +28,10 @@ namespace delam {
 class Stepper {
 public:
     enum class Checks { made_here, made_before };
-    // problem and monitor must outlive it. Checks the problem, and cuts and factors the bodies.
-    Stepper(const Problem& problem, Monitor& monitor, Checks checks = Checks::made_here);
+    // problem and monitor must outlive it. Checks the problem, and cuts and factors the bodies. other: shares the
+    // bodies that this one has condensed, if they are the same (shared_design.hpp).
+    Stepper(const Problem& problem, Monitor& monitor, Checks checks = Checks::made_here,
+            const Stepper* other = nullptr);
     Stepper(const Stepper&) = delete;
     Stepper& operator=(const Stepper&) = delete;
 

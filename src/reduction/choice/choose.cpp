@@ -323,7 +323,7 @@ Design of_feti(Design design, const Problem& problem, Monitor& monitor) {
     return design;
 }
 
-Design of_condensed(Design design, const Problem& problem, std::unique_ptr<Bulk> bulk) {
+Design of_condensed(Design design, const Problem& problem, std::shared_ptr<Bulk> bulk) {
     design.description = Condensed::description_of(*bulk);
     take_rows(design, problem, bulk->system().variables());
     design.prescribed = prescribed_rows(bulk->system().variables());
@@ -408,7 +408,8 @@ Design chosen(const Problem& problem, Monitor& monitor) {
         choose(choice);
         return of_iterated(std::move(design), problem, std::make_unique<Iterated>(problem, monitor));
     }
-    auto bulk = std::make_unique<Bulk>(problem, monitor);
+    auto bulk = problem.renewed ? std::make_shared<Bulk>(problem, monitor)
+                                : std::make_shared<Bulk>(std::make_shared<const Problem>(problem), monitor);
     choice.unknowns = bulk->system().variables().trailing();
     choice.condensation = predict_condensed(*bulk, choice.parts.per_step);
     choice.iteration = predict_iterated(iterated_size(*bulk));
@@ -450,9 +451,9 @@ std::unique_ptr<JumpOperator> build_operator(Design& design, const Problem& prob
     if (!design.refusal.empty()) fail(DELAM_ERROR_MEMORY, design.refusal);
     if (design.op != nullptr) return std::move(design.op);
     if (design.bulk == nullptr) return std::make_unique<Feti>(problem, monitor);
-    design.bulk->condense(monitor);
-    design.condensed = design.bulk.get();
-    return std::make_unique<Condensed>(std::move(design.bulk), problem, monitor);
+    const std::int64_t before = design.shared ? design.bulk->factorisations() : 0;
+    if (!design.shared) design.bulk->condense(monitor);
+    return std::make_unique<Condensed>(design.bulk, problem, monitor, before);
 }
 
 }  // namespace delam

@@ -93,11 +93,10 @@ struct Design {
     std::string refusal;                   // why it does not fit into the memory, "": it may
     std::vector<std::uint8_t> prescribed;  // [jump rows] 1: the constraints alone determine the jump
     std::vector<BoundRow> bound;           // jumps that supports bind to others
-    std::unique_ptr<Bulk> bulk;            // of the condensed operator
+    std::shared_ptr<Bulk> bulk;            // of the condensed operator; null: it is another realisation
+    bool shared = false;                   // the bulk is another solver's, which has condensed it
     std::unique_ptr<JumpOperator> op;      // the iterated operator, which factors nothing before its first solve
-    // Parts of the operator that was built; null if it is another realisation.
-    const Bulk* condensed = nullptr;            // the bodies condensed onto the jumps
-    const EngineOperator* in_engine = nullptr;  // the bodies are an engine's of the host
+    const EngineOperator* in_engine = nullptr;  // the operator's, if the bodies are an engine's of the host
 
     Design();
     Design(Design&&) noexcept;
@@ -105,7 +104,7 @@ struct Design {
     ~Design();
 };
 Design design_operator(const Problem& problem, Monitor& monitor);
-// Factors what must be factored beforehand. Consumes what the design holds; its choice stays. Throws
+// Factors what must be factored beforehand. Consumes the operator that the design holds; the rest stays. Throws
 // Error(DELAM_ERROR_MEMORY) with the design's refusal.
 std::unique_ptr<JumpOperator> build_operator(Design& design, const Problem& problem, Monitor& monitor);
 

@@ -12,11 +12,14 @@
 
 namespace delam {
 
-Bulk::Bulk(const Problem& problem, Monitor& monitor) : problem_(problem) {
+Bulk::Bulk(const Problem& problem, Monitor& monitor) : Bulk(assemble_bodies(problem, monitor), monitor) {}
+
+Bulk::Bulk(std::shared_ptr<const Problem> problem, Monitor& monitor)
+    : Bulk(assemble_bodies(std::move(problem), monitor), monitor) {}
+
+Bulk::Bulk(AssembledBodies bodies, Monitor& monitor)
+    : system_(std::move(bodies.system)), problem_(system_->problem()), transformed_(std::move(bodies.transformed)) {
     const Poll analysing = [&monitor] { monitor.progress("analyse", 0, 0); };
-    AssembledBodies bodies = assemble_bodies(problem_, monitor);
-    system_ = std::move(bodies.system);
-    transformed_ = std::move(bodies.transformed);
     call_if_set(analysing);
     superelements_ = std::make_unique<Superelements>(transformed_, variables(), problem_, analysing);
     if (!problem_.renewed) return;

@@ -33,8 +33,10 @@ namespace delam {
 
 class Bulk {
 public:
-    // Assembles and analyses; condense() computes the numbers.
+    // Assembles and analyses; condense() computes the numbers. `problem` must outlive it.
     Bulk(const Problem& problem, Monitor& monitor);
+    // Keeps the problem, so that operators of other problems with the same bodies may share it (shared_bodies.hpp).
+    Bulk(std::shared_ptr<const Problem> problem, Monitor& monitor);
     void condense(Monitor& monitor);
     // Condenses what has changed in the problem (Problem::renewed). False: the matrix has other entries than the one
     // that was analysed, and nothing is left that could be used.
@@ -93,6 +95,7 @@ public:
     std::int64_t factorisations() const { return factorisations_; }
 
 private:
+    Bulk(AssembledBodies bodies, Monitor& monitor);
     void factorise(const Poll& poll);
     void take_loads(std::size_t first, const Poll& poll);  // of the patterns from the first on
     void rest(const Poll& poll);
@@ -109,8 +112,8 @@ private:
     const JumpVariables& variables() const { return system_->variables(); }
     const SparseMatrix& stiffness() const { return system_->stiffness(); }
 
-    const Problem& problem_;
     std::unique_ptr<BodySystem> system_;
+    const Problem& problem_;
     SparseMatrix transformed_;
     SparseMatrix analysed_;  // of a problem that is renewed: the pattern
     std::unique_ptr<Superelements> superelements_;

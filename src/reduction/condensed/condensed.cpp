@@ -12,12 +12,13 @@
 
 namespace delam {
 
-Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor)
+Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor, std::int64_t before)
     : bulk_(std::move(bulk)),
       problem_(problem),
       monitor_(monitor),
       choice_(*bulk_, problem_),
-      elimination_(bulk_->elimination()) {
+      elimination_(bulk_->elimination()),
+      before_(before) {
     for (const JumpRow& row : bulk_->rows()) prescribed_.push_back(row.prescribed() ? 1 : 0);
 }
 

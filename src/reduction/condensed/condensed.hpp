@@ -20,7 +20,8 @@ namespace delam {
 
 class Condensed final : public JumpOperator, private Zones {
 public:
-    Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor);
+    // before: factorisations of the bulk that were made for others.
+    Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor, std::int64_t before = 0);
     void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
     void expect_changes(std::span<const std::size_t> rows) override { choice_.expect_changes(rows); }
     OperatorTraits traits() const override { return {.proportional = true, .renewable = true}; }
@@ -31,9 +32,9 @@ public:
     double rounding_energy(std::span<const double> theta, const Response& response) const override;
     std::vector<double> row_stiffness() const override;
     std::span<const std::uint8_t> prescribed_rows() const override { return prescribed_; }
-    std::int64_t factorisations() const override { return bulk_->factorisations(); }
+    std::int64_t factorisations() const override { return bulk_->factorisations() - before_; }
     std::unique_ptr<JumpOperator> twin() const override {
-        return std::make_unique<Condensed>(bulk_, problem_, monitor_);
+        return std::make_unique<Condensed>(bulk_, problem_, monitor_, before_);
     }
     bool renew(Renewed what) override;
     std::string description() const override { return description_of(*bulk_); }
@@ -78,6 +79,7 @@ private:
     Zone* zone_ = nullptr;  // one of dense_ and by_tree_; null: none is chosen
     SolvedState solved_;    // the last solve; empty: none since the last memory() or recall()
     std::int64_t condensations_ = 0;
+    std::int64_t before_;  // factorisations that others have made
 };
 
 }  // namespace delam

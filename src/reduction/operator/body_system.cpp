@@ -114,6 +114,10 @@ BodySystem::BodySystem(const Problem& problem, const Poll& poll, Stiffness stiff
     call_if_set(poll);
 }
 
+BodySystem::BodySystem(std::shared_ptr<const Problem> problem, const Poll& poll) : BodySystem(*problem, poll) {
+    kept_ = std::move(problem);
+}
+
 void BodySystem::renew(Renewed what, const Poll& poll) {
     if (what == Renewed::all) {
         stiffness_ = assemble(problem_, poll);
@@ -128,12 +132,23 @@ SparseMatrix BodySystem::transformed(const Poll& poll) const {
     return with_diagonal(congruence(stiffness_, variables_.transform, poll), variables_.leading);
 }
 
-AssembledBodies assemble_bodies(const Problem& problem, Monitor& monitor) {
+namespace {
+
+template <class Held>
+AssembledBodies assembled(Held&& problem, Monitor& monitor) {
     const Poll assembling = [&monitor] { monitor.progress("assemble", 0, 0); };
     call_if_set(assembling);
-    AssembledBodies bodies{std::make_unique<BodySystem>(problem, assembling), {}};
+    AssembledBodies bodies{std::make_unique<BodySystem>(std::forward<Held>(problem), assembling), {}};
     bodies.transformed = bodies.system->transformed(assembling);
     return bodies;
+}
+
+}  // namespace
+
+AssembledBodies assemble_bodies(const Problem& problem, Monitor& monitor) { return assembled(problem, monitor); }
+
+AssembledBodies assemble_bodies(std::shared_ptr<const Problem> problem, Monitor& monitor) {
+    return assembled(std::move(problem), monitor);
 }
 
 StrainLoads BodySystem::find_loads() {

@@ -23,6 +23,8 @@ public:
     // stressed() may not be called.
     enum class Stiffness { here, elsewhere };
     BodySystem(const Problem& problem, const Poll& poll, Stiffness stiffness = Stiffness::here);
+    // Keeps the problem as long as the system lives.
+    BodySystem(std::shared_ptr<const Problem> problem, const Poll& poll);
 
     const Problem& problem() const { return problem_; }
     const JumpVariables& variables() const { return variables_; }
@@ -50,6 +52,7 @@ public:
                                  std::span<const double> force) const;
 
 private:
+    std::shared_ptr<const Problem> kept_;  // null: the problem outlives the system
     const Problem& problem_;
     SparseMatrix stiffness_;
     SparseMatrix jump_rows_;  // B, [rows][mesh DOFs]
@@ -63,5 +66,6 @@ struct AssembledBodies {
     SparseMatrix transformed;
 };
 AssembledBodies assemble_bodies(const Problem& problem, Monitor& monitor);
+AssembledBodies assemble_bodies(std::shared_ptr<const Problem> problem, Monitor& monitor);
 
 }  // namespace delam

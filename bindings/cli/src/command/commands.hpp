@@ -8,22 +8,30 @@
 #include <string>
 #include <vector>
 
+#include "model/model.hpp"
 #include "text/unit.hpp"
 
 namespace cli {
 
 class Bulk;
-struct Model;
+
+// What an analysis leaves to the next one of the same process: the condensed bodies of its solver, which many studies
+// do not vary.
+struct Former {
+    Context context;
+    Solver solver;
+};
 
 // Called around everything for which solvers of the model exist: it calls the rest of the command and returns its exit
 // code. Empty: the command calls the rest itself. For programs that solve the bodies elsewhere.
 using Around = std::function<int(const Model& model, const std::function<int()>& rest)>;
-// The program whose commands these are: how people call it, what it does around solvers, and where the fields of nodes
-// and cells are; null: here.
+// The program whose commands these are: how people call it, what it does around solvers, where the fields of nodes and
+// cells are (null: here), and what the analysis before has left (null: nobody asks).
 struct Caller {
     std::string name = "delam";
     Around around{};
     Bulk* bulk = nullptr;
+    Former* former = nullptr;
 };
 
 // settings: KEY=VALUE, see setting.hpp. command: the line as typed, for result.json.

@@ -182,6 +182,9 @@ public:
         if (outcome.complete) folder_.end();
     }
 
+    // Ends the run.
+    Solver release() { return std::move(solver_); }
+
     [[nodiscard]] const State& state() const { return state_; }
     // The starting point of a later --resume; none: nothing is saved yet.
     [[nodiscard]] std::optional<std::int64_t> saved_step() const { return saved_step_; }
@@ -370,20 +373,21 @@ struct Analysis {
     const std::string& again;    // that reproduces the result
     Log& log;
     Bulk* bulk;
+    Solver& solver;  // of the analysis before, or null; then of this one
 };
 
 // Everything after the words of the beginning.
 int analyse(const Analysis& of) {
-    const auto& [scene, model, state, folder, progress, command, again, log, bulk] = of;
+    const auto& [scene, model, state, folder, progress, command, again, log, bulk, solver] = of;
     bool converged = true;
-    Solver solver = new_solver(model, scene, converged);
+    Solver own = new_solver(model, scene, std::move(solver), converged);
     std::vector<std::string>& warnings = *log.of_scene;
     log.of_scene = nullptr;
     if (!converged) say("warning: the displacement of the initial state did not converge\n");
     Outcome outcome;
     outcome.command = command;
     outcome.warnings = std::move(warnings);
-    Run work(scene, model, std::move(solver), converged, folder, bulk);
+    Run work(scene, model, std::move(own), converged, folder, bulk);
     Exit code = exit_done;
     try {
         if (state)
@@ -393,6 +397,7 @@ int analyse(const Analysis& of) {
         code = work.analyse(progress, outcome);
         progress.finish();
         to_the_end([&] { work.publish(outcome); });
+        solver = work.release();
     } catch (const OutputFailure& failure) {
         progress.finish();
         throw Failure(exit_output, fmt::format("{}\n{}", failure.what(), way_on(work, folder, again)));
@@ -431,11 +436,12 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
     const Scene scene = read_scene(scene_file, settings);
     if (scene.imported) say_lines(import_lines(*scene.imported));
     const std::string again = command_again(caller, scene, folder_path);
-    Context context = new_context();
+    Former former = caller.former != nullptr ? std::exchange(*caller.former, {}) : Former{};
+    Context context = former.context != nullptr ? std::move(former.context) : new_context();
     const Interrupt interrupt(context.get());
     Progress progress(static_cast<std::int64_t>(scene.step_count()));
     delam_context_set_progress(context.get(), on_progress, &progress);
-    const Model model = build(std::move(context), scene);
+    Model model = build(std::move(context), scene);
     progress.clear();
     OutputFolder folder(folder_path);
     if (resume)
@@ -457,9 +463,14 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
     for (const std::string& text : warnings) say("warning: {}\n", text);
     std::fflush(stdout);
 
-    const Analysis analysis{scene, model, state, folder, progress, command, again, log, caller.bulk};
+    const Analysis analysis{scene, model, state, folder, progress, command, again, log, caller.bulk, former.solver};
     const auto rest = [&] { return analyse(analysis); };
-    return caller.around ? caller.around(model, rest) : rest();
+    const int code = caller.around ? caller.around(model, rest) : rest();
+    if (caller.former == nullptr) return code;
+    delam_context_set_log(model.context.get(), nullptr, nullptr);
+    delam_context_set_progress(model.context.get(), nullptr, nullptr);
+    *caller.former = {std::move(model.context), std::move(former.solver)};
+    return code;
 }
 
 }  // namespace cli

@@ -96,7 +96,10 @@ int served(const nlohmann::json& job, const Caller& caller) {
 
 }  // namespace
 
-int serve(const Caller& caller) {
+int serve(const Caller& of) {
+    Former former;
+    Caller caller = of;
+    caller.former = &former;
     const int answers = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
     std::string line;
     while (answers >= 0 && !Interrupt::requested() && std::getline(std::cin, line)) {

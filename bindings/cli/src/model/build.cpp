@@ -212,9 +212,14 @@ Model build(Context context, const Scene& scene) {
     return model;
 }
 
-Solver new_solver(const Model& model, const Scene& scene, bool& converged) {
+Solver new_solver(const Model& model, const Scene& scene, Solver former, bool& converged) {
+    std::int32_t shares = 0;
+    if (former != nullptr)
+        call(model.context.get(), delam_solver_shares_bodies(former.get(), model.problem.get(), &shares), scene.file);
+    if (shares == 0) former.reset();
     delam_solver* handle = nullptr;
-    const std::int32_t status = delam_solver_create(model.problem.get(), scene.times.front(), &handle);
+    const std::int32_t status =
+        delam_solver_create_like(model.problem.get(), former.get(), scene.times.front(), &handle);
     Solver solver(handle);
     converged = status != DELAM_NOT_CONVERGED;
     if (converged || solver == nullptr) call(model.context.get(), status, {scene.file, "", 0});

@@ -10,7 +10,8 @@ namespace cli {
 Law law_of(const Model& model, const LawData& from);
 // Returns a complete and checked problem. Errors name the place in the scene.
 Model build(Context context, const Scene& scene);
-// Factors the operator; the state is the initial one. converged: whether its displacement step converged.
-Solver new_solver(const Model& model, const Scene& scene, bool& converged);
+// Factors the operator; the state is the initial one. converged: whether its displacement step converged. former: of
+// the same context, or null; its condensed bodies are used again if they are the same, and else it is destroyed first.
+Solver new_solver(const Model& model, const Scene& scene, Solver former, bool& converged);
 
 }  // namespace cli

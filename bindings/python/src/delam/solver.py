@@ -95,22 +95,28 @@ class Solver(Object):
 
     not_converged: the effect of a step that reaches an iteration limit: "warn" (NotConvergedWarning, the step is
     pending), "raise" (NotConverged, pending too) or "ignore". An interrupted call (Ctrl-C, or an exception from a
-    callback) restores the state before it. `problem` is the problem given."""
+    callback) restores the state before it. `problem` is the problem given.
+
+    like: an earlier solver of this problem, whose condensed bodies this one shares if only laws, initial adhesion and
+    options have changed since. Results are the same digit by digit, and a trial of a fit costs less."""
 
     problem: Problem
     not_converged: str
     _instead = ("Use save(), whose bytes can be pickled or written to a file, and load() them into a Solver of an "
                 "equal problem: it continues bit for bit.")
 
-    def __init__(self, problem: Problem, time: float = 0.0, not_converged: str = "warn") -> None:
+    def __init__(self, problem: Problem, time: float = 0.0, not_converged: str = "warn",
+                 like: Solver | None = None) -> None:
         if not_converged not in ("warn", "raise", "ignore"):
             raise ArgumentError(f"not_converged = {not_converged!r}, expected 'warn', 'raise' or 'ignore'")
         if not isinstance(problem, Problem):
             raise ArgumentError(f"problem = {problem!r}, expected a Problem")
+        if like is not None and not isinstance(like, Solver):
+            raise ArgumentError(f"like = {like!r}, expected a Solver or None")
         self.not_converged = not_converged
         outcome = self._make(problem.context, raw.delam_solver, library.delam_solver_destroy,
-                             library.delam_solver_create, problem._handle, number("time", time),
-                             keep=problem._keep, long=True, outcomes=(raw.DELAM_NOT_CONVERGED,))
+                             library.delam_solver_create_like, problem._handle, None if like is None else like._handle,
+                             number("time", time), keep=problem._keep, long=True, outcomes=(raw.DELAM_NOT_CONVERGED,))
         self.problem = problem
         self._patterns = problem.patterns  # at creation: the solver stays usable when the problem is closed
         count = ctypes.c_int64()

@@ -76,10 +76,13 @@ public:
     Solver(const Problem& problem, double time)
         : shared_(problem.shared()), laws_(problem.host_laws()), patterns_(problem.pattern_count()) {
         delam_solver* made = nullptr;
-        const auto status = delam_solver_create(problem.get(), time, &made);
-        handle_.reset(made);
-        initial_ = static_cast<Outcome>(shared_->settle(status));
-        if (!handle_) shared_->fail(status);
+        take(delam_solver_create(problem.get(), time, &made), made);
+    }
+    // Shares the condensed bodies of another solver, if they are equal (delam_solver_create_like).
+    Solver(const Problem& problem, double time, const Solver& other)
+        : shared_(problem.shared()), laws_(problem.host_laws()), patterns_(problem.pattern_count()) {
+        delam_solver* made = nullptr;
+        take(delam_solver_create_like(problem.get(), other.get(), time, &made), made);
     }
 
     // Returns the handle of C.
@@ -270,6 +273,11 @@ public:
     void load(const std::filesystem::path& path) { shared_->check(delam_solver_load_file(get(), path.c_str())); }
 
 private:
+    void take(std::int32_t status, delam_solver* made) {
+        handle_.reset(made);
+        initial_ = static_cast<Outcome>(shared_->settle(status));
+        if (!handle_) shared_->fail(status);
+    }
     std::vector<double> tangent_by(std::int32_t (*function)(delam_solver*, std::int64_t, double*)) {
         std::vector<double> matrix(detail::length(patterns_ * patterns_));
         shared_->check(function(get(), patterns_ * patterns_, matrix.data()));

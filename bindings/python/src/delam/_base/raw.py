@@ -288,6 +288,9 @@ FUNCTIONS: dict[str, tuple[Any, tuple[tuple[str, Any], ...]]] = {
         ("memory", POINTER(c_double)))),
     "delam_solver_create": (c_int32, (
         ("problem", POINTER(delam_problem)), ("time", c_double), ("out", POINTER(POINTER(delam_solver))))),
+    "delam_solver_create_like": (c_int32, (
+        ("problem", POINTER(delam_problem)), ("other", POINTER(delam_solver)), ("time", c_double),
+        ("out", POINTER(POINTER(delam_solver))))),
     "delam_solver_destroy": (None, (("solver", POINTER(POINTER(delam_solver))),)),
     "delam_solver_advance": (c_int32, (("solver", POINTER(delam_solver)), ("time", c_double))),
     "delam_solver_commit": (c_int32, (("solver", POINTER(delam_solver)),)),

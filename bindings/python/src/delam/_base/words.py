@@ -42,6 +42,7 @@ _OTHERS = {
     "option_info": "options", "option_alias": "options", "option_bounds": "Options.bounds",
     "problem_pattern_count": "Problem.patterns", "problem_pattern_name": "Problem.patterns",
     "problem_value_count": "Problem.value_keys", "problem_value_info": "Problem.value_keys", "solver_create": "Solver",
+    "solver_create_like": "Solver",
     "solver_destroy": "Solver.close", "solver_value": "Solver.values", "solver_value_count": "Solver.values",
     "solver_value_name": "Solver.values", "solver_value_info": "Values.describe",
     "solver_recorded_size": "Solver.recorded_steps", "solver_field_shape": "Solver.field",
