@@ -89,13 +89,13 @@ void prefer_what_fits(ReductionChoice& choice);
 // The operator of a scene before anything is factored: its choice, and what has been assembled and analysed for it.
 struct Design {
     ReductionChoice choice;
-    std::string description;               // of the operator, for people
-    std::string refusal;                   // why it does not fit into the memory, "": it may
-    std::vector<std::uint8_t> prescribed;  // [jump rows] 1: the constraints alone determine the jump
-    std::vector<BoundRow> bound;           // jumps that supports bind to others
-    std::shared_ptr<Bulk> bulk;            // of the condensed operator; null: it is another realisation
-    bool shared = false;                   // the bulk is another solver's, which has condensed it
-    std::unique_ptr<JumpOperator> op;      // the iterated operator, which factors nothing before its first solve
+    std::string description;                    // of the operator, for people
+    std::string refusal;                        // why it does not fit into the memory, "": it may
+    std::vector<std::uint8_t> prescribed;       // [jump rows] 1: the constraints alone determine the jump
+    std::vector<BoundRow> bound;                // jumps that supports bind to others
+    std::shared_ptr<Bulk> bulk;                 // of the condensed operator; null: it is another realisation
+    bool shared = false;                        // the bulk is another solver's, which has condensed it
+    std::unique_ptr<JumpOperator> op;           // the iterated operator, which factors nothing before its first solve
     const EngineOperator* in_engine = nullptr;  // the operator's, if the bodies are an engine's of the host
 
     Design();

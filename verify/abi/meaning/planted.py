@@ -365,6 +365,7 @@ BREAKS = {
                                                          zone_lengths=lambda v, g: DOUBLE(g["zone_pairs"], g))),
     "fronts that are open": ("crack fronts in space", told("solver_front", closed=lambda v, g: [*v[:-1], 1 - v[-1]])),
     "tangent with damage": ("tangents", {"solver_tangent": with_damage}),
+    "bodies that are always shared": ("bodies that solvers share", told("solver_shares_bodies", shares=lambda v, g: 1)),
     "patterns of the tangent backwards": ("tangents", told("solver_tangent", matrix=backwards)),
     "sign of the step tangent": ("tangents", told("solver_step_tangent", matrix=NEGATED)),
     "condensed loads by unknown": ("condensed operator", told("solver_condensed", load=by(root))),

@@ -46,6 +46,41 @@ def time_of_a_step(host, see):
     see.near("time of a displacement step in the past", bar.value("time"), 0.25, "t")
 
 
+@row("bodies that solvers share", tells=["solver_shares_bodies shares"])
+def shared_bodies(host, see):
+    """Another law and another adhesion leave the bodies as they are; another modulus, another option and another
+    operator of the first solver do not. What is shared is condensed once, and outlives the solver that made it."""
+    bar = scenes.Bar(host, scenes.strong(host, 10.0, 1.0), bulk=10.0)
+    bar.step(0.5)
+    shares, counts, works = [], [], []
+
+    def follow():
+        shares.append(host("solver_shares_bodies", bar.solver, bar.problem, Out()))
+        other = host("solver_create_like", bar.problem, bar.solver, 0.0, Out())
+        counts.append(value(host, other, "bulk_factorisations"))
+        host("solver_advance", other, 0.5)
+        works.append(value(host, other, "work"))
+        return other
+
+    first = follow()
+    host("problem_set_law", bar.problem, 0, scenes.strong(host, 30.0, 1.0))
+    host("solver_destroy", bar.solver)
+    bar.solver = first
+    follow()
+    host("problem_set_adhesion", bar.problem, 0, 2, [0, 1], [0.5, 0.5], 0)
+    follow()
+    scenes.give(host, bar.problem, "reduction", "iterated")
+    follow()
+    scenes.give(host, bar.problem, "reduction", "auto")
+    host("problem_set_elastic", bar.problem, -1, 20.0, 0.0)
+    follow()
+    see.equal("shares", shares, [1, 1, 1, 0, 0])
+    see.equal("condensations", counts[:3] + counts[4:], [0, 0, 0, 1])
+    # Springs in series: 10 and 10, 10 and 30, 10 and 15, the same, 20 and 15; pulled by .5.
+    series = [a * b / (a + b) for a, b in ((10, 10), (10, 30), (10, 15), (10, 15), (20, 15))]
+    see.near("work", works, [0.125 * k for k in series], "F L")
+
+
 @row("adhesion after contact and bonds")
 def after_contact(host, see):
     """What delam_problem_set_contact, _set_law and _set_bonded do to the initial adhesion, in any order."""

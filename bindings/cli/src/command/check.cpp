@@ -95,7 +95,7 @@ Planned plan(const Model& model, const Scene& scene) {
             setup);
         return planned;
     }
-    const Solver solver = new_solver(model, scene, planned.converged);
+    const Solver solver = new_solver(model, scene, nullptr, planned.converged);
     planned.text = delam_solver_plan(solver.get());
     return planned;
 }

@@ -205,6 +205,9 @@ DELAM_API int32_t delam_problem_value_info(const delam_problem *problem, int64_t
                                            const char **alias);
 DELAM_API int32_t delam_problem_plan(delam_problem *problem, const char **plan, double *setup, double *memory);
 DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time, delam_solver **out);
+DELAM_API int32_t delam_solver_create_like(const delam_problem *problem, const delam_solver *other, double time,
+                                           delam_solver **out);
+DELAM_API int32_t delam_solver_shares_bodies(const delam_solver *solver, const delam_problem *problem, int32_t *shares);
 DELAM_API void delam_solver_destroy(delam_solver **solver);
 DELAM_API int32_t delam_solver_advance(delam_solver *solver, double time);
 DELAM_API int32_t delam_solver_commit(delam_solver *solver);
