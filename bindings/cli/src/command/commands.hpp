@@ -15,8 +15,8 @@ namespace cli {
 
 class Bulk;
 
-// What an analysis leaves to the next one of the same process: the condensed bodies of its solver, which many studies
-// do not vary.
+// An analysis leaves these to the next one of the same process, for the condensed bodies of its solver, which many
+// studies do not vary.
 struct Former {
     Context context;
     Solver solver;
