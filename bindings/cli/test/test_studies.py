@@ -39,6 +39,8 @@ def sweeps():
     history = table(os.path.join(alone, "history.csv"))
     peak = max(float(row["reaction"]) for row in history)
     expect(float(rows[3]["peak_reaction"]) == peak and rows[3]["exit_code"] == "0", "a row has the numbers of its run")
+    # Runs of a job share the condensed bodies; its results are those of a run alone, digit by digit.
+    expect(history == table(os.path.join(out, rows[3]["run"].zfill(4), "history.csv")), "the history of a run is that of the run alone")
     expect(all(os.path.getsize(os.path.join(out, name)) > 5000 for name in ("curves.png", "response.png")), "pictures")
 
     expect(all(row["warnings"] == "1" for row in rows) and shown.count("warning of 6 of 6 runs (1, 2, 3, 4, 5, 6): ") == 1, f"warnings: {shown}")
