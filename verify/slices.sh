@@ -3,7 +3,7 @@
 # To be sourced by verify/run.sh: the long tier, cut into slices of at most ten minutes on two idle cores, of which each
 # run of .ci/run takes one.
 
-slices=15
+slices=16
 # Tests of ctest, as a regular expression; each test with the label `long` is in one slice (the test style/slices).
 declare -A slice_tests=(
     [1]='^(cli_long_(studies|many)|(unit|case)/test_long_.*|case/whole_.*)$'
@@ -15,11 +15,12 @@ declare -A slice_tests=(
     [7]='^ranks/long_scenes_whole.*$'
     [8]='^(abi/long_.*)$'
     [9]='^(fuzz/.*|(contact|mesh_error|load_path)/long_.*)$'
-    [10]='^(fault/(long|cancel|memory)|features/).*$'
+    [10]='^fault/(long|cancel|memory).*$'
     [12]='^valgrind/unit_test_[a-h].*$'
     [13]='^valgrind/unit_test_[i-l].*$'
     [14]='^valgrind/(unit_test_[m-z]|case_).*$'
     [15]='^constants/.*$'
+    [16]='^features/.*$'
 )
 # Stages of verify/stages.sh, with their arguments, separated by semicolons.
 declare -A slice_stages=(
