@@ -999,9 +999,9 @@ DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time,
  * numerical; source src/reduction/README.md; since 0.2] */
 DELAM_API int32_t delam_solver_create_like(const delam_problem *problem, const delam_solver *other, double time,
                                            delam_solver **out);
-/* Tells whether delam_solver_create_like would share the condensed bodies of this solver: *shares is 1 if they are
- * equal, and neither the solver nor the options of the problem ask for another operator; else 0. The host may then
- * destroy the solver before it creates one that makes its own.
+/* Tells whether delam_solver_create_like would share the condensed bodies of this solver. *shares is 1 if they are
+ * equal, and neither the solver nor the options of the problem ask for another operator; else 0. In that case a host
+ * that lacks memory can destroy this solver first.
  * [null none; status argument; since 0.2] */
 DELAM_API int32_t delam_solver_shares_bodies(const delam_solver *solver, const delam_problem *problem, int32_t *shares);
 /* Destroys a solver and its state.

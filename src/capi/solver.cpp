@@ -17,7 +17,6 @@
 #include "evolution/analysis/solver.hpp"
 #include "evolution/observe/fields.hpp"
 #include "evolution/observe/values.hpp"
-#include "reduction/choice/shared_design.hpp"
 
 using namespace delam;
 
@@ -89,7 +88,7 @@ int32_t delam_solver_shares_bodies(const delam_solver* solver, const delam_probl
     return guard(solver, [&] {
         require_pointer(shares, "shares");
         if (!alive(problem)) fail(DELAM_ERROR_HANDLE, "problem: no problem, or a destroyed one");
-        *shares = shares_bodies(*problem->core, solver->core->stepper().design()) ? 1 : 0;
+        *shares = share_bodies(*solver->core, *problem->core) ? 1 : 0;
     });
 }
 

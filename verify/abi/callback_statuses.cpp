@@ -190,8 +190,16 @@ std::int32_t create(Scene& s) {
     return status;
 }
 
+std::int32_t create_like(Scene& s) {
+    delam_solver* made = nullptr;
+    const std::int32_t status = delam_solver_create_like(s.problem, s.solver, 0.0, &made);
+    delam_solver_destroy(&made);
+    return status;
+}
+
 const Call calls[] = {
     {"delam_solver_create", create, true, true},
+    {"delam_solver_create_like", create_like, true, true},
     {"delam_solver_advance", [](Scene& s) { return delam_solver_advance(s.solver, 0.8); }, true, true},
     {"delam_solver_equilibrate", [](Scene& s) { return delam_solver_equilibrate(s.solver, 0.9, nullptr); }, true, true},
     {"delam_solver_value", [](Scene& s) { return value(s, "kkt_equilibrium"); }, true, false},

@@ -342,12 +342,9 @@ ROWS = {
     ("problem_plan", "mesh"): (folded, usual("problem_plan")),
     ("problem_plan", "problem"): (bare, usual("problem_plan")),
     ("problem_set_stiffness", "cancelled"): (cancelled(bare), usual("problem_set_stiffness")),
-    ("solver_create", "not_converged"): (unbalanced, lambda s: [s.problem, 1.0, c_void_p()]),
-    ("solver_create", "mesh"): (folded, usual("solver_create")),
-    ("solver_create", "problem"): (bare, usual("solver_create")),
-    ("solver_create_like", "not_converged"): (unbalanced, lambda s: [s.problem, None, 1.0, c_void_p()]),
-    ("solver_create_like", "mesh"): (folded, lambda s: [s.problem, None, 0.0, c_void_p()]),
-    ("solver_create_like", "problem"): (bare, lambda s: [s.problem, None, 0.0, c_void_p()]),
+    **{("solver_create" + like, status): (make, lambda s, o=other, time=time: [s.problem, *o, time, c_void_p()])
+       for like, other in (("", ()), ("_like", (None,)))
+       for status, make, time in (("not_converged", unbalanced, 1.0), ("mesh", folded, 0.0), ("problem", bare, 0.0))},
     ("solver_advance", "not_converged"): (lambda: with_options(("minimisation_limit", 1.0), time=0.0),
                                           lambda s: [s.solver, 0.5]),
     ("solver_advance", "limit"): (lambda: loose_part(0.0), lambda s: [s.solver, 1.0]),
@@ -401,9 +398,8 @@ UNSEEN = {
     ("mesh_add_pairs", "mesh"): "pairs that the host gives are wrong arguments; the list is older and may only shrink",
     ("problem_set_stiffness", "numerical"): "it guards against a factorisation that breaks down after the checks of the "
                                             "matrix, which name the argument",
-    ("solver_create", "limit"): "it guards against dead loads on a part that only contact holds; what delam_problem_check "
-                                "sees beforehand is DELAM_ERROR_PROBLEM",
-    ("solver_create_like", "limit"): "as solver_create",
+    **{("solver_create" + like, "limit"): "it guards against dead loads on a part that only contact holds; what "
+       "delam_problem_check sees beforehand is DELAM_ERROR_PROBLEM" for like in ("", "_like")},
     ("solver_recorded_size", "argument"): "both outputs may be NULL; the list is older and may only shrink",
     ("solver_condensed_size", "argument"): "both outputs may be NULL; the list is older and may only shrink",
 }

@@ -273,8 +273,7 @@ CALLS = {
     "law_parameter_info": (loose, lambda s: [words("griffith"), 0] + [c_void_p() for _ in range(6)]),
     "law_parameter_bounds": (loose, lambda s: [words("griffith"), 1, real(0), real(0), short(0), short(0)]),
     "law_kind_info": (bare, lambda s: [0, c_void_p(), c_void_p(), short(0)]),
-    "law_create_host": (loose, lambda s: [s.context, words("host"), on_adhesion, on_dissipation, None,
-                                            c_void_p()]),
+    "law_create_host": (loose, lambda s: [s.context, words("host"), on_adhesion, on_dissipation, None, c_void_p()]),
     "law_check": (loose, lambda s: [s.law]),
     "law_toughness": (loose, lambda s: [s.law, 1, real(0.5), real(0), real(0)]),
     "law_respond": (loose, lambda s: [s.law, 2, 1, real(1e-3, 0), real(0.5), real(1), real(0), real(0, 0)]),
@@ -302,8 +301,7 @@ CALLS = {
     "cell_type_info": (bare, lambda s: [0, c_void_p()] + [short(0) for _ in range(7)]),
     "cell_type_topology": (bare, lambda s: [0, room(c_int32, 6), room(c_int32, 2)]),
     "option_info": (bare, lambda s: [0] + [c_void_p() for _ in range(6)]),
-    "option_alias": (bare, lambda s: [0, c_void_p()]),
-    "option_bounds": (bare, number_option),
+    "option_alias": (bare, lambda s: [0, c_void_p()]), "option_bounds": (bare, number_option),
     "problem_check": (full, lambda s: [s.problem]),
     "problem_hash": (full, lambda s: [s.problem, room(c_uint8, 17)]),
     "problem_dofs": (full, lambda s: [s.problem, whole(0), whole(0)]),
@@ -428,7 +426,7 @@ def probe(function):
             return change
 
         if is_object(p):
-            attempt(function, f"{p.name} NULL", HANDLE, put(None))
+            attempt(function, f"{p.name} NULL", OK if p.name in nullable else HANDLE, put(None))
             attempt(function, f"{p.name} foreign", HANDLE, put(foreign))
         elif "*" in p.type or p.type in header.callbacks:
             if p.name in nullable:

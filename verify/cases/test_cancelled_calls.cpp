@@ -469,6 +469,10 @@ TEST(waiting_request) {
            "the request has waited for delam_solver_create");
     // Now the request is consumed.
     host.require(delam_solver_create(host.h.problem, 0.0, &host.h.solver), "delam_solver_create");
+    expect(delam_context_cancel(context) == DELAM_OK, "delam_context_cancel");
+    delam_solver* like = nullptr;
+    expect(delam_solver_create_like(host.h.problem, host.h.solver, 0.0, &like) == DELAM_CANCELLED && like == nullptr,
+           "the request has waited for \"delam_solver_create_like\"");
     host.require(delam_solver_advance(host.h.solver, 0.5), "delam_solver_advance");
     expect(delam_context_cancel(context) == DELAM_OK, "delam_context_cancel");
     double value = 0.0;

@@ -930,6 +930,14 @@ module delam_raw
       type(c_ptr), intent(inout) :: out
       integer(c_int32_t) :: status
     end function delam_solver_create_like
+    function delam_solver_shares_bodies(solver, problem, shares) bind(c, name="delam_solver_shares_bodies") &
+        result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: solver
+      type(c_ptr), value :: problem
+      integer(c_int32_t), intent(inout), optional :: shares
+      integer(c_int32_t) :: status
+    end function delam_solver_shares_bodies
     subroutine delam_solver_destroy(solver) bind(c, name="delam_solver_destroy")
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
       type(c_ptr), intent(inout) :: solver

@@ -524,6 +524,11 @@ function delam_solver_create_like(problem, other, time, out)
         time::Cdouble, out::Ptr{Ptr{delam_solver}})::Int32
 end
 
+function delam_solver_shares_bodies(solver, problem, shares)
+    @ccall libdelam.delam_solver_shares_bodies(solver::Ptr{delam_solver}, problem::Ptr{delam_problem},
+        shares::Ptr{Int32})::Int32
+end
+
 function delam_solver_destroy(solver)
     @ccall libdelam.delam_solver_destroy(solver::Ptr{Ptr{delam_solver}})::Cvoid
 end
@@ -715,15 +720,15 @@ const FUNCTIONS = (
     :delam_problem_constraints, :delam_problem_forces, :delam_problem_eigenstrain_energy, :delam_problem_factors,
     :delam_problem_pattern_count, :delam_problem_pattern_name, :delam_problem_option, :delam_problem_value_count,
     :delam_problem_value_info, :delam_problem_plan, :delam_solver_create, :delam_solver_create_like,
-    :delam_solver_destroy, :delam_solver_advance, :delam_solver_commit, :delam_solver_rollback, :delam_solver_pending,
-    :delam_solver_set_history, :delam_solver_equilibrate, :delam_solver_value, :delam_solver_value_count,
-    :delam_solver_value_name, :delam_solver_value_info, :delam_solver_record, :delam_solver_recorded_size,
-    :delam_solver_recorded, :delam_solver_field_shape, :delam_solver_field, :delam_solver_average,
-    :delam_solver_front_count, :delam_solver_front, :delam_solver_tangent, :delam_solver_step_tangent,
-    :delam_solver_condensed_size, :delam_solver_condensed, :delam_solver_plan, :delam_solver_plan_count,
-    :delam_solver_plan_item, :delam_solver_option, :delam_solver_searched, :delam_solver_look, :delam_solver_jump_count,
-    :delam_solver_jump, :delam_solver_jump_reactions, :delam_solver_save, :delam_solver_load, :delam_solver_save_file,
-    :delam_solver_load_file,
+    :delam_solver_shares_bodies, :delam_solver_destroy, :delam_solver_advance, :delam_solver_commit,
+    :delam_solver_rollback, :delam_solver_pending, :delam_solver_set_history, :delam_solver_equilibrate,
+    :delam_solver_value, :delam_solver_value_count, :delam_solver_value_name, :delam_solver_value_info,
+    :delam_solver_record, :delam_solver_recorded_size, :delam_solver_recorded, :delam_solver_field_shape,
+    :delam_solver_field, :delam_solver_average, :delam_solver_front_count, :delam_solver_front, :delam_solver_tangent,
+    :delam_solver_step_tangent, :delam_solver_condensed_size, :delam_solver_condensed, :delam_solver_plan,
+    :delam_solver_plan_count, :delam_solver_plan_item, :delam_solver_option, :delam_solver_searched, :delam_solver_look,
+    :delam_solver_jump_count, :delam_solver_jump, :delam_solver_jump_reactions, :delam_solver_save, :delam_solver_load,
+    :delam_solver_save_file, :delam_solver_load_file,
 )
 
 end

@@ -102,6 +102,10 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time, const Solv
                              " are used, the number of processors of this process"));
 }
 
+bool share_bodies(const Solver& other, const Problem& problem) {
+    return shares_bodies(problem, other.stepper().design());
+}
+
 Outcome Solver::unconverged_displacement(const State& state) const {
     return {DELAM_NOT_CONVERGED, text("displacements at time ", state.time, ": not converged (worst linear residual ",
                                       state.effort.linear_residual, ", tolerance ", problem_.options.linear_tolerance,

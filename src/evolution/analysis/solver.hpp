@@ -107,6 +107,9 @@ private:
     Warnings warnings_;
 };
 
+// True if a solver of this problem that is made with the other one shares its condensed bodies.
+bool share_bodies(const Solver& other, const Problem& problem);
+
 // Returns a value of the state that the solver shows (values.hpp).
 inline double value(Solver& solver, const std::string& key) {
     return solver.values(solver.states().shown(), {key}).front();

@@ -14,7 +14,6 @@
 #include "evolution/step/contact_work.hpp"
 #include "evolution/step/energetic_jump.hpp"
 #include "evolution/step/pairs_of_scene.hpp"
-#include "reduction/choice/shared_design.hpp"
 #include "scene/check/validate.hpp"
 
 namespace delam {
@@ -59,8 +58,7 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor, Checks checks, const 
     graph_ = PairGraph(problem_.mesh->interfaces());
     rule_.emplace(pairs_, problem_.options.mixity_rule);
     call_if_set(checking);
-    std::optional<Design> shared = other != nullptr ? shared_design(problem_, other->design_) : std::nullopt;
-    design_ = shared ? std::move(*shared) : design_operator(problem_, monitor_);
+    design_ = other ? design_operator(problem_, monitor_, other->design_) : design_operator(problem_, monitor_);
     if (problem_.options.kinematics != "linear") {
         // Bodies that rotate have no operator that would hold in all steps (turned_steps.hpp).
         ReductionChoice choice = std::move(design_.choice);

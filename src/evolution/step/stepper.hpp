@@ -29,7 +29,7 @@ class Stepper {
 public:
     enum class Checks { made_here, made_before };
     // problem and monitor must outlive it. Checks the problem, and cuts and factors the bodies. other: shares the
-    // bodies that this one has condensed, if they are the same (shared_design.hpp).
+    // bodies that this one has condensed, if they are the same (design_operator).
     Stepper(const Problem& problem, Monitor& monitor, Checks checks = Checks::made_here,
             const Stepper* other = nullptr);
     Stepper(const Stepper&) = delete;

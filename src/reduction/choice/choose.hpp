@@ -104,6 +104,11 @@ struct Design {
     ~Design();
 };
 Design design_operator(const Problem& problem, Monitor& monitor);
+// Shares the condensed bodies of another design, whose operator has been built, where that is possible.
+Design design_operator(const Problem& problem, Monitor& monitor, const Design& other);
+// True if it is: the other one has condensed bodies, supports and loads are equal (hash_of_bodies), and the options ask
+// for no other operator. Laws, initial adhesion and histories of loads may differ.
+bool shares_bodies(const Problem& problem, const Design& other);
 // Factors what must be factored beforehand. Consumes the operator that the design holds; the rest stays. Throws
 // Error(DELAM_ERROR_MEMORY) with the design's refusal.
 std::unique_ptr<JumpOperator> build_operator(Design& design, const Problem& problem, Monitor& monitor);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reduction/choice/shared_design.hpp"
-
+// The operator of a scene whose bodies another solver has condensed already.
 #include "base/memory_limit.hpp"
+#include "reduction/choice/choose.hpp"
 #include "reduction/condensed/bulk.hpp"
 #include "scene/advice/expected_parts.hpp"
 #include "scene/check/step_control.hpp"
@@ -15,8 +15,8 @@ bool shares_bodies(const Problem& problem, const Design& other) {
            hash_of_bodies(problem) == hash_of_bodies(other.bulk->system().problem());
 }
 
-std::optional<Design> shared_design(const Problem& problem, const Design& other) {
-    if (!shares_bodies(problem, other)) return std::nullopt;
+Design design_operator(const Problem& problem, Monitor& monitor, const Design& other) {
+    if (!shares_bodies(problem, other)) return design_operator(problem, monitor);
     Design design;
     ReductionChoice& choice = design.choice;
     choice = other.choice;

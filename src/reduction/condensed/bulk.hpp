@@ -35,7 +35,7 @@ class Bulk {
 public:
     // Assembles and analyses; condense() computes the numbers. `problem` must outlive it.
     Bulk(const Problem& problem, Monitor& monitor);
-    // Keeps the problem, so that operators of other problems with the same bodies may share it (shared_bodies.hpp).
+    // Keeps the problem, so that operators of other problems with the same bodies may share it.
     Bulk(std::shared_ptr<const Problem> problem, Monitor& monitor);
     void condense(Monitor& monitor);
     // Condenses what has changed in the problem (Problem::renewed). False: the matrix has other entries than the one

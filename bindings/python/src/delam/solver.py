@@ -114,9 +114,11 @@ class Solver(Object):
         if like is not None and not isinstance(like, Solver):
             raise ArgumentError(f"like = {like!r}, expected a Solver or None")
         self.not_converged = not_converged
-        outcome = self._make(problem.context, raw.delam_solver, library.delam_solver_destroy,
-                             library.delam_solver_create_like, problem._handle, None if like is None else like._handle,
-                             number("time", time), keep=problem._keep, long=True, outcomes=(raw.DELAM_NOT_CONVERGED,))
+        create = library.delam_solver_create if like is None else library.delam_solver_create_like
+        others = () if like is None else (like._handle,)
+        outcome = self._make(problem.context, raw.delam_solver, library.delam_solver_destroy, create, problem._handle,
+                             *others, number("time", time), keep=problem._keep, long=True,
+                             outcomes=(raw.DELAM_NOT_CONVERGED,))
         self.problem = problem
         self._patterns = problem.patterns  # at creation: the solver stays usable when the problem is closed
         count = ctypes.c_int64()

@@ -291,6 +291,8 @@ FUNCTIONS: dict[str, tuple[Any, tuple[tuple[str, Any], ...]]] = {
     "delam_solver_create_like": (c_int32, (
         ("problem", POINTER(delam_problem)), ("other", POINTER(delam_solver)), ("time", c_double),
         ("out", POINTER(POINTER(delam_solver))))),
+    "delam_solver_shares_bodies": (c_int32, (
+        ("solver", POINTER(delam_solver)), ("problem", POINTER(delam_problem)), ("shares", POINTER(c_int32)))),
     "delam_solver_destroy": (None, (("solver", POINTER(POINTER(delam_solver))),)),
     "delam_solver_advance": (c_int32, (("solver", POINTER(delam_solver)), ("time", c_double))),
     "delam_solver_commit": (c_int32, (("solver", POINTER(delam_solver)),)),
