@@ -457,7 +457,8 @@ void Stepper::search(Result& best, const StepRule& step) {
              found.words);
 }
 
-Stepper::Result Stepper::equilibrate(const State& before, double time, std::span<const double> adhesion) {
+Stepper::Result Stepper::equilibrate(const State& before, double time, std::span<const double> adhesion,
+                                     std::vector<double> displacement) {
     if (other_) return other_->equilibrate(before, time, adhesion);
     Result result{before, true};
     State& next = result.state;
@@ -468,7 +469,7 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
         if (!(next.adhesion[p] >= 0.0 && next.adhesion[p] <= 1.0))
             fail(DELAM_ERROR_ARGUMENT, "adhesion of pair ", p, " is ", next.adhesion[p], ", allowed: 0 to 1");
     const std::unique_ptr<StepRule> still = increment(before, next.mixity);
-    places_.emplace(*operator_, before.theta, before.response);
+    places_.emplace(*operator_, before.theta, before.response, std::move(displacement));
     result.converged = minimiser().displace(next, *still);
     places_.reset();
     next.mixity = still->shown(next.response.jump, std::move(next.mixity));
