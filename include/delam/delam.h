@@ -801,6 +801,27 @@ DELAM_API int32_t delam_problem_prescribe_mean(delam_problem *problem, int64_t c
 DELAM_API int32_t delam_problem_add_equation(delam_problem *problem, int64_t count, const int64_t *nodes,
                                              const double *coefficients, int64_t pattern_count, const int64_t *patterns,
                                              const double *prescribed, int32_t index_base);
+/* Lets the constraints first .. first + count - 1 begin within the analysis, for supports and grips that come later.
+ * Constraints are numbered in the order in which they were added (delam_problem_constraints counts them). Up to `time`
+ * the analysis goes on without them. From then on they hold, and begin where the displacements are:
+ *   left-hand side = right-hand side + excess * factor(t) / factor(`time`)
+ * The excess is the left-hand side less the right-hand side at `time`, and the factor is that of `pattern`. With a
+ * constant factor, displacements count from where the support found them. With one that falls from 1 to 0, they go to
+ * the right-hand side meanwhile. Nothing moves at `time` itself, and the reactions begin at zero. An analysis that
+ * begins at `time` or later has the constraints from its beginning, without an excess.
+ * A step must end at `time`; delam_solver_advance refuses to go beyond it from before. The step after it factorises the
+ * bodies anew, and backtracking does not return to steps before it. A second call replaces the first.
+ * [unit time t finite; null none; status argument, problem; since 0.2] */
+DELAM_API int32_t delam_problem_begin_constraints(delam_problem *problem, int64_t first, int64_t count, double time,
+                                                  int64_t pattern);
+/* Lets the constraints first .. first + count - 1 end within the analysis, for supports that are taken away. From
+ * `time` on, they are replaced by the forces that they had, times factor(t) / factor(`time`) of `pattern`. This pattern
+ * drives forces; with a factor that falls from 1 to 0, the parts are let go gradually. Everything else is as in
+ * delam_problem_begin_constraints. Displacements of the same nodes may be prescribed again after this call, for times
+ * that do not overlap.
+ * [unit time t finite; null none; status argument, problem; since 0.2] */
+DELAM_API int32_t delam_problem_end_constraints(delam_problem *problem, int64_t first, int64_t count, double time,
+                                                int64_t pattern);
 /* Makes the mesh a periodic cell: u(x + period_k) - u(x) = u of control node k for all nodes on opposite faces. The
  * mesh must be a parallelepiped whose edges are the periods. If there are fewer periods than dimensions, it may have
  * any shape in the other directions.

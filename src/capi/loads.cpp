@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 
@@ -144,6 +145,7 @@ std::unordered_map<std::int64_t, std::vector<Direction>> held_directions(const P
     std::unordered_map<std::int64_t, std::vector<Direction>> held;
     for (const Constraint& constraint : problem.constraints) {
         poll_cancel("loads");
+        if (constraint.end) continue;  // the checks of the stages tell whether it has ended by then
         if (constraint.dof.front() / dimension != constraint.dof.back() / dimension) continue;
         Direction direction{};
         double length = 0.0;
@@ -177,7 +179,43 @@ void mark(Problem& problem, const std::vector<std::int64_t>& patterns, Pattern::
     for (const std::int64_t p : patterns) problem.patterns[index(p)].drives = drives;
 }
 
+// Lets constraints begin or end at a time, with a pattern for what is there then.
+void change_constraints(Problem& problem, std::int64_t first, std::int64_t count, double time, std::int64_t pattern,
+                        std::optional<Constraint::Change> Constraint::*change) {
+    const bool begins = change == &Constraint::begin;
+    const auto drives = begins ? Pattern::Drives::displacement : Pattern::Drives::force;
+    const auto all = static_cast<std::int64_t>(problem.constraints.size());
+    require_count_up_to(count, "count", 1, all);
+    require_index(first, all - count + 1, 0, "first");
+    require_finite(&time, 1, "time");
+    const std::vector<std::int64_t> list = require_patterns(problem, 1, &pattern, 0, drives);
+    const Pattern& own = problem.patterns[index(list.front())];
+    if (own.at(time) == 0.0)
+        fail(DELAM_ERROR_ARGUMENT, "pattern '", own.name, "' has the factor 0 at time ", time, ", must not be 0");
+    for (std::int64_t c = first; c < first + count; ++c) {
+        const Constraint& constraint = problem.constraints[index(c)];
+        const double from = begins ? time : constraint.begin ? constraint.begin->time : -infinite;
+        const double until = !begins ? time : constraint.end ? constraint.end->time : infinite;
+        if (!(from < until))
+            fail(DELAM_ERROR_PROBLEM, "constraint ", c, " would begin at time ", from, " and end at time ", until,
+                 ": it must end later");
+    }
+    for (std::int64_t c = first; c < first + count; ++c)
+        problem.constraints[index(c)].*change = Constraint::Change{time, pattern};
+    mark(problem, list, drives);
+}
+
 }  // namespace
+
+int32_t delam_problem_begin_constraints(delam_problem* problem, int64_t first, int64_t count, double time,
+                                        int64_t pattern) {
+    return guard(problem, [&] { change_constraints(*problem->core, first, count, time, pattern, &Constraint::begin); });
+}
+
+int32_t delam_problem_end_constraints(delam_problem* problem, int64_t first, int64_t count, double time,
+                                      int64_t pattern) {
+    return guard(problem, [&] { change_constraints(*problem->core, first, count, time, pattern, &Constraint::end); });
+}
 
 int32_t delam_problem_add_pattern(delam_problem* problem, const char* name, int64_t count, const double* times,
                                   const double* values, int64_t* out_pattern) {

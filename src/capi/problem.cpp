@@ -14,7 +14,7 @@
 #include "capi/handle/handles.hpp"
 #include "law/admissible.hpp"
 #include "mesh/selection.hpp"
-#include "scene/check/validate.hpp"
+#include "scene/check/validate_stages.hpp"
 #include "scene/given_stiffness.hpp"
 
 namespace {
@@ -332,7 +332,7 @@ int32_t delam_option_bounds(int64_t index, double* lower, double* upper, int32_t
 }
 
 int32_t delam_problem_check(delam_problem* problem) {
-    return guard_build(problem, [&] { validate(*problem->core); });
+    return guard_build(problem, [&] { validate_stages(*problem->core, -infinite); });
 }
 
 int32_t delam_problem_hash(const delam_problem* problem, char* out) {

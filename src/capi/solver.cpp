@@ -96,15 +96,15 @@ void delam_solver_destroy(delam_solver** solver) { destroy(solver); }
 
 int32_t delam_solver_advance(delam_solver* solver, double time) {
     return guard_step(solver, listed::solver_advance,
-                      [&] { return report(*solver->context, solver->core->advance(time)); });
+                      [&] { return report(*solver->context, solver->stages.advance(solver->core, time)); });
 }
 
 int32_t delam_solver_commit(delam_solver* solver) {
-    return guard(solver, listed::solver_commit, [&] { solver->core->commit(); });
+    return guard(solver, listed::solver_commit, [&] { solver->stages.commit(solver->core); });
 }
 
 int32_t delam_solver_rollback(delam_solver* solver) {
-    return guard(solver, [&] { solver->core->rollback(); });
+    return guard(solver, [&] { solver->stages.rollback(solver->core); });
 }
 
 int32_t delam_solver_pending(const delam_solver* solver, int32_t* pending) {
@@ -411,7 +411,7 @@ int32_t delam_solver_jump_reactions(const delam_solver* solver, int64_t index, i
 int32_t delam_solver_save(const delam_solver* solver, int64_t capacity, uint8_t* bytes, int64_t* needed) {
     return guard(solver, [&] {
         require_pointer(needed, "needed");
-        const std::vector<std::uint8_t> saved = save(*solver->core);
+        const std::vector<std::uint8_t> saved = save(solver->stages.committed(*solver->core));
         *needed = static_cast<int64_t>(saved.size());
         if (capacity != 0) copy_out(saved, capacity, bytes, "bytes");
     });
@@ -422,14 +422,14 @@ int32_t delam_solver_load(delam_solver* solver, int64_t size, const uint8_t* byt
         require_count(size, "size");
         require_array(bytes, size, "bytes");
         poll_cancel_now("load");  // a small state would be read before the first poll
-        load(*solver->core, {bytes, index(size)});
+        solver->stages.load(solver->core, {bytes, index(size)});
     });
 }
 
 int32_t delam_solver_save_file(const delam_solver* solver, const char* path) {
     return guard(solver, [&] {
         require_pointer(path, "path");
-        write_file(path, save(*solver->core));
+        write_file(path, save(solver->stages.committed(*solver->core)));
     });
 }
 
@@ -437,7 +437,7 @@ int32_t delam_solver_load_file(delam_solver* solver, const char* path) {
     return guard_step(solver, listed::solver_load_file, [&] {
         require_pointer(path, "path");
         poll_cancel_now("load");
-        load_file(*solver->core, path);
+        solver->stages.load_file(solver->core, path);
     });
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/archive.hpp"
@@ -159,6 +160,13 @@ void add_loads(Fnv& fnv, const Problem& problem) {
         fnv.add_all(constraint.dof);
         fnv.add_all(constraint.coefficient);
         fnv.add_all(constraint.prescribed);
+        // Scenes without them hash as they did before there were such.
+        for (const auto& [word, change] : {std::pair("begin", constraint.begin), std::pair("end", constraint.end)}) {
+            if (!change) continue;
+            fnv.add(std::string(word));
+            fnv.add(change->time);
+            fnv.add(change->pattern);
+        }
     }
     fnv.add(static_cast<std::int64_t>(problem.forces.size()));
     for (const NodalForce& force : problem.forces) {

@@ -37,6 +37,14 @@ struct Constraint {
     std::vector<std::int64_t> dof;  // mesh DOFs: dimension*node + component
     std::vector<double> coefficient;
     std::vector<double> prescribed;  // [patterns that existed when it was added]; later ones are 0
+    // A time at which it begins or ends to hold within the analysis, and the pattern of what is there then: the
+    // displacement that it finds, or the force that it leaves (stage.hpp). Nothing: it holds from the first to the
+    // last.
+    struct Change {
+        double time;
+        std::int64_t pattern;
+    };
+    std::optional<Change> begin{}, end{};
 };
 
 struct NodalForce {
@@ -92,6 +100,9 @@ struct Problem {
     // True for a scene that is linearised again and again (reduction/turned): the numbers of its stiffness, frames and
     // forces change, but not the places where they stand.
     bool renewed = false;
+    // The scene of a stage has the numbers of its constraints in the host's, and how many that has; empty: the same.
+    std::vector<std::int64_t> constraint_number;
+    std::int64_t constraint_total = 0;
     std::vector<double> jump_offset;  // [rows] parts of the jumps per unit of the last pattern's factor; empty: none
 
     // DOFs of all pairs: rows of the jump, interface after interface, pair after pair, normal first.
@@ -108,6 +119,13 @@ struct Problem {
                              [](const InterfaceProperties& own) { return own.law.has_value() && !own.bonded; });
     }
     std::vector<double> factors(double time) const;
+    // The number that the host knows a constraint by, and the count of such numbers.
+    std::int64_t number_of(std::size_t constraint) const {
+        return constraint_number.empty() ? static_cast<std::int64_t>(constraint) : constraint_number[constraint];
+    }
+    std::int64_t numbered_constraints() const {
+        return constraint_number.empty() ? static_cast<std::int64_t>(constraints.size()) : constraint_total;
+    }
     // Right-hand side coefficients [constraints][patterns], row-major.
     std::vector<double> prescribed_matrix() const;
     // Rows of the jump that have a gap, ascending.

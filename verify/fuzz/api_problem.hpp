@@ -51,6 +51,14 @@ inline std::int32_t add_load(Input& in, delam_problem* problem, Load load) {
     return DELAM_OK;
 }
 
+inline std::int32_t change_constraints(Input& in, delam_problem* problem, bool begins) {
+    const std::int64_t first = in.index(16), count = in.below(4);
+    const double time = in.seldom() ? in.hostile_real() : in.real();
+    const std::int64_t pattern = in.index(sizes_of(problem).patterns);
+    return begins ? IN_ORDER(delam_problem_begin_constraints, problem, first, count, time, pattern)
+                  : IN_ORDER(delam_problem_end_constraints, problem, first, count, time, pattern);
+}
+
 inline std::int32_t add_periodic(Input& in, delam_problem* problem) {
     std::vector<double> periods = in.reals(9);
     if (in.flag()) periods = {1.0, 0.0, 0.0, 0.0, 0.0, 0.25, 0.0, 0.0, 1.0};

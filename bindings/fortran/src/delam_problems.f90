@@ -35,6 +35,8 @@ module delam_problems
     procedure :: prescribe_mean => problem_prescribe_mean
     procedure :: add_equation => problem_add_equation
     procedure :: add_periodic => problem_add_periodic
+    procedure :: begin_constraints => problem_begin_constraints
+    procedure :: end_constraints => problem_end_constraints
     procedure :: add_forces => problem_add_forces
     procedure :: add_eigenstrain => problem_add_eigenstrain
     procedure :: set_gaps => problem_set_gaps
@@ -402,6 +404,29 @@ contains
                                            distance, &
                                            1_c_int32_t), self, status, message)
   end subroutine problem_add_periodic
+
+  ! Constraints, in the order in which they were added from 1 on, begin at a time, from where the nodes are then. The
+  ! factor of the pattern, over that at the time, is what is left of the way to where they are prescribed.
+  subroutine problem_begin_constraints(self, first, count, time, pattern, status, message)
+    class(delam_problem), intent(in) :: self
+    integer(delam_index), intent(in) :: first, count, pattern
+    real(delam_real), intent(in) :: time
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    call settle(delam_problem_begin_constraints(self%handle(), first - 1, count, time, pattern - 1), self, status, &
+                message)
+  end subroutine problem_begin_constraints
+
+  ! Constraints end at a time. Their forces, times the factor of the pattern over that at the time, take their place.
+  subroutine problem_end_constraints(self, first, count, time, pattern, status, message)
+    class(delam_problem), intent(in) :: self
+    integer(delam_index), intent(in) :: first, count, pattern
+    real(delam_real), intent(in) :: time
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    call settle(delam_problem_end_constraints(self%handle(), first - 1, count, time, pattern - 1), self, status, &
+                message)
+  end subroutine problem_end_constraints
 
   ! forces: (dimension, nodes)
   subroutine problem_add_forces(self, pattern, nodes, forces, status, message)

@@ -693,6 +693,26 @@ module delam_raw
       integer(c_int32_t), value :: index_base
       integer(c_int32_t) :: status
     end function delam_problem_add_equation
+    function delam_problem_begin_constraints(problem, first, count, time, pattern) bind(c, &
+        name="delam_problem_begin_constraints") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: problem
+      integer(c_int64_t), value :: first
+      integer(c_int64_t), value :: count
+      real(c_double), value :: time
+      integer(c_int64_t), value :: pattern
+      integer(c_int32_t) :: status
+    end function delam_problem_begin_constraints
+    function delam_problem_end_constraints(problem, first, count, time, pattern) bind(c, &
+        name="delam_problem_end_constraints") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: problem
+      integer(c_int64_t), value :: first
+      integer(c_int64_t), value :: count
+      real(c_double), value :: time
+      integer(c_int64_t), value :: pattern
+      integer(c_int32_t) :: status
+    end function delam_problem_end_constraints
     function delam_problem_add_periodic(problem, period_count, periods, control_nodes, tolerance, index_base) &
         bind(c, name="delam_problem_add_periodic") result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double

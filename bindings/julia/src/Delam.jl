@@ -43,8 +43,8 @@ export add_cells!, add_interface!, add_all_interfaces!, add_projected_interface!
 export host_law, law_kinds, parameters, bounds, Bounds, allows, set!, check, toughness, respond, options
 export set_plane!, set_elastic!, set_orthotropic!, set_orientation!, set_formulation!, set_law!, set_bonded!,
     set_contact!, set_adhesion!, set_adhesion_box!, add_pattern!, prescribe!, prescribe_mean!, add_equation!,
-    add_periodic!, add_forces!, add_eigenstrain!, set_gaps!, set_stiffness!, patterns, problem_hash, dofs, process_zone,
-    propose, factors
+    begin_constraints!, end_constraints!, add_periodic!, add_forces!, add_eigenstrain!, set_gaps!, set_stiffness!,
+    patterns, problem_hash, dofs, process_zone, propose, factors
 export advance!, commit!, rollback!, pending, equilibrate!, set_history!, march!, history, record!, recorded,
     recorded_steps, write_csv, look!, value_infos, ValueInfo,
     save, load!, field, average, fronts, tangent, step_tangent, condensed, plan,

@@ -394,6 +394,16 @@ function delam_problem_add_equation(problem, count, nodes, coefficients, pattern
         index_base::Int32)::Int32
 end
 
+function delam_problem_begin_constraints(problem, first, count, time, pattern)
+    @ccall libdelam.delam_problem_begin_constraints(problem::Ptr{delam_problem}, first::Int64, count::Int64,
+        time::Cdouble, pattern::Int64)::Int32
+end
+
+function delam_problem_end_constraints(problem, first, count, time, pattern)
+    @ccall libdelam.delam_problem_end_constraints(problem::Ptr{delam_problem}, first::Int64, count::Int64,
+        time::Cdouble, pattern::Int64)::Int32
+end
+
 function delam_problem_add_periodic(problem, period_count, periods, control_nodes, tolerance, index_base)
     @ccall libdelam.delam_problem_add_periodic(problem::Ptr{delam_problem}, period_count::Int64,
         periods::Ptr{Cdouble}, control_nodes::Ptr{Int64}, tolerance::Cdouble, index_base::Int32)::Int32
@@ -713,22 +723,23 @@ const FUNCTIONS = (
     :delam_problem_set_formulation, :delam_problem_set_stiffness, :delam_problem_set_law, :delam_problem_set_bonded,
     :delam_problem_set_contact, :delam_problem_set_adhesion, :delam_problem_set_adhesion_box,
     :delam_problem_add_pattern, :delam_problem_prescribe_nodes, :delam_problem_prescribe_mean,
-    :delam_problem_add_equation, :delam_problem_add_periodic, :delam_problem_add_forces, :delam_problem_add_eigenstrain,
-    :delam_problem_set_gaps, :delam_problem_set_number, :delam_problem_set_text, :delam_option_count,
-    :delam_option_info, :delam_option_alias, :delam_option_bounds, :delam_problem_check, :delam_problem_hash,
-    :delam_problem_dofs, :delam_problem_process_zone, :delam_problem_propose, :delam_problem_body_matrix,
-    :delam_problem_constraints, :delam_problem_forces, :delam_problem_eigenstrain_energy, :delam_problem_factors,
-    :delam_problem_pattern_count, :delam_problem_pattern_name, :delam_problem_option, :delam_problem_value_count,
-    :delam_problem_value_info, :delam_problem_plan, :delam_solver_create, :delam_solver_create_like,
-    :delam_solver_shares_bodies, :delam_solver_destroy, :delam_solver_advance, :delam_solver_commit,
-    :delam_solver_rollback, :delam_solver_pending, :delam_solver_set_history, :delam_solver_equilibrate,
-    :delam_solver_value, :delam_solver_value_count, :delam_solver_value_name, :delam_solver_value_info,
-    :delam_solver_record, :delam_solver_recorded_size, :delam_solver_recorded, :delam_solver_field_shape,
-    :delam_solver_field, :delam_solver_average, :delam_solver_front_count, :delam_solver_front, :delam_solver_tangent,
-    :delam_solver_step_tangent, :delam_solver_condensed_size, :delam_solver_condensed, :delam_solver_plan,
-    :delam_solver_plan_count, :delam_solver_plan_item, :delam_solver_option, :delam_solver_searched, :delam_solver_look,
-    :delam_solver_jump_count, :delam_solver_jump, :delam_solver_jump_reactions, :delam_solver_save, :delam_solver_load,
-    :delam_solver_save_file, :delam_solver_load_file,
+    :delam_problem_add_equation, :delam_problem_begin_constraints, :delam_problem_end_constraints,
+    :delam_problem_add_periodic, :delam_problem_add_forces, :delam_problem_add_eigenstrain, :delam_problem_set_gaps,
+    :delam_problem_set_number, :delam_problem_set_text, :delam_option_count, :delam_option_info, :delam_option_alias,
+    :delam_option_bounds, :delam_problem_check, :delam_problem_hash, :delam_problem_dofs, :delam_problem_process_zone,
+    :delam_problem_propose, :delam_problem_body_matrix, :delam_problem_constraints, :delam_problem_forces,
+    :delam_problem_eigenstrain_energy, :delam_problem_factors, :delam_problem_pattern_count,
+    :delam_problem_pattern_name, :delam_problem_option, :delam_problem_value_count, :delam_problem_value_info,
+    :delam_problem_plan, :delam_solver_create, :delam_solver_create_like, :delam_solver_shares_bodies,
+    :delam_solver_destroy, :delam_solver_advance, :delam_solver_commit, :delam_solver_rollback, :delam_solver_pending,
+    :delam_solver_set_history, :delam_solver_equilibrate, :delam_solver_value, :delam_solver_value_count,
+    :delam_solver_value_name, :delam_solver_value_info, :delam_solver_record, :delam_solver_recorded_size,
+    :delam_solver_recorded, :delam_solver_field_shape, :delam_solver_field, :delam_solver_average,
+    :delam_solver_front_count, :delam_solver_front, :delam_solver_tangent, :delam_solver_step_tangent,
+    :delam_solver_condensed_size, :delam_solver_condensed, :delam_solver_plan, :delam_solver_plan_count,
+    :delam_solver_plan_item, :delam_solver_option, :delam_solver_searched, :delam_solver_look, :delam_solver_jump_count,
+    :delam_solver_jump, :delam_solver_jump_reactions, :delam_solver_save, :delam_solver_load, :delam_solver_save_file,
+    :delam_solver_load_file,
 )
 
 end

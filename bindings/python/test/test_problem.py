@@ -80,6 +80,29 @@ def grid(columns, rows, extra=()):
     return mesh
 
 
+class Stages(unittest.TestCase):
+    def test_constraints_begin_and_end(self):
+        """A square of stiffness 1 under a force of 0.2: taken where it is, moved to zero, and let go."""
+        problem = delam.Problem(grid(1, 1, []), plane="plane-strain")
+        problem.set_elastic(1.0, 0.0)
+        problem.prescribe([0, 1, 2, 3], "x")
+        problem.prescribe([0, 1], "y")
+        problem.add_forces(problem.add_pattern("force", [0, 1], [0, 1]), [2, 3], [0, 0.1])
+        problem.prescribe([2, 3], "y")
+        first = problem.constraints()[0].shape[0] - 2
+        problem.begin_constraints(first, 2, 1.0, problem.add_pattern("found", [1, 2], [1, 0]))
+        problem.end_constraints(first, 2, 2.0, problem.add_pattern("left", [2, 3], [1, 0]))
+        self.assertEqual(problem.pattern("left"), 2)
+        with self.assertRaisesRegex(delam.ArgumentError, "first = 9"):
+            problem.begin_constraints(9, 1, 1.0, "found")
+        solver = delam.Solver(problem)
+        for time, place in ((1.0, 0.2), (1.5, 0.1), (2.0, 0.0), (2.5, 0.1), (3.0, 0.2)):
+            solver.advance(time)
+            solver.commit()
+            self.assertAlmostEqual(solver.field("displacement")[2, 1], place, 12)
+        self.assertAlmostEqual(solver.values["defect"], 0.0, 12)
+
+
 class Materials(unittest.TestCase):
     YOUNG, POISSON = 3.0, 0.25
 

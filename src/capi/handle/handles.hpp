@@ -22,6 +22,7 @@
 #include "capi/handle/listed.hpp"
 #include "delam/delam.h"
 #include "evolution/analysis/plan.hpp"
+#include "evolution/analysis/stages.hpp"
 #include "linalg/sparse/sparse.hpp"
 
 namespace delam {
@@ -97,6 +98,7 @@ struct delam_problem : delam::Handle<delam::magic_problem, delam::Problem> {
     std::string plan_words;
 };
 struct delam_solver : delam::Handle<delam::magic_solver, delam::Solver> {
+    delam::Stages stages;                  // replaces the core where supports begin or end
     std::vector<std::string> value_names;  // texts returned by delam_solver_value_name and delam_solver_plan
     std::vector<delam::PlanItem> plan;     // owns the texts that delam_solver_plan_item returns
     std::string plan_words;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/machine/blas_threads.hpp"
@@ -13,7 +14,8 @@
 #include "evolution/step/pairs_of_scene.hpp"
 #include "scene/advice/scene_warnings.hpp"
 #include "scene/check/step_control.hpp"
-#include "scene/check/validate.hpp"
+#include "scene/check/validate_stages.hpp"
+#include "scene/stage.hpp"
 
 namespace delam {
 
@@ -280,25 +282,57 @@ std::vector<PlanItem> items_of(const Basis& basis) {
     return items;
 }
 
+// Says when other supports hold; nothing: the same do all the time.
+std::optional<PlanItem> stages_of(const Problem& problem) {
+    const std::vector<double> times = changes_of(problem);
+    if (times.empty()) return {};
+    std::string words;
+    for (const double time : times) words += text(words.empty() ? "" : ", ", time);
+    return PlanItem{
+        "supports that begin or end",
+        used,
+        text("at time ", words, ": the bodies are factorised anew there; what is said here is of the stage ",
+             "before the first"),
+        0.0,
+        0.0,
+        "-"};
+}
+
 std::string figure(double value, const std::string& unit) { return unit == "-" ? text(value) : text(value, " ", unit); }
 
 }  // namespace
 
 std::vector<PlanItem> plan_of(const Solver& solver) {
     const JumpOperator& op = solver.stepper().op();
-    return items_of({solver.problem(), solver.stepper().reduction(), op.description(), "", op.prescribed_rows(),
-                     solver.observer().pairs().gradient, solver.control()});
+    std::vector<PlanItem> items =
+        items_of({solver.problem(), solver.stepper().reduction(), op.description(), "", op.prescribed_rows(),
+                  solver.observer().pairs().gradient, solver.control()});
+    if (solver.stage() != nullptr)
+        if (auto stages = stages_of(*solver.stage()->whole)) items.push_back(std::move(*stages));
+    return items;
 }
 
 Forecast forecast(const Problem& problem, Monitor& monitor) {
-    validate(problem, [&monitor] { monitor.progress("check", 0, 0); });
-    const Design design = design_operator(problem, monitor);
+    validate_stages(problem, -infinite, [&monitor] { monitor.progress("check", 0, 0); });
+    const std::vector<double> changes = changes_of(problem);
+    std::optional<Problem> before;
+    if (!changes.empty()) before = scene_from(problem, -infinite);
+    const Problem& first = before ? *before : problem;
+    const Design design = design_operator(first, monitor);
     const ReductionCost& cost = design.choice.own();
     if (!design.refusal.empty()) monitor.log(1, design.refusal);
-    warn_of_scene(problem, monitor);
-    return {items_of({problem, design.choice, design.description, design.refusal, design.prescribed,
-                      gradient_terms(problem), used_step_control(problem, problem.options)}),
-            cost.setup / nominal_rate, cost.bytes};
+    warn_of_scene(first, monitor);
+    Forecast found{items_of({first, design.choice, design.description, design.refusal, design.prescribed,
+                             gradient_terms(first), used_step_control(first, first.options)}),
+                   cost.setup / nominal_rate, cost.bytes};
+    for (const double time : changes) {
+        const Design later = design_operator(scene_from(problem, time), monitor);
+        found.setup += later.choice.own().setup / nominal_rate;
+        // While the first step of a stage is pending, the stage before is still there.
+        found.memory = std::max(found.memory, cost.bytes + later.choice.own().bytes);
+    }
+    if (auto stages = stages_of(problem)) found.plan.push_back(std::move(*stages));
+    return found;
 }
 
 std::string plan_in_words(const std::vector<PlanItem>& items) {

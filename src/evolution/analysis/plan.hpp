@@ -25,7 +25,7 @@ std::vector<PlanItem> plan_of(const Solver& solver);
 // The plan of an analysis that has not begun.
 struct Forecast {
     std::vector<PlanItem> plan;
-    double setup = 0.0;   // s, nominal, of the factorisations before the first step
+    double setup = 0.0;   // s, nominal, of the factorisations before the first step of each stage
     double memory = 0.0;  // bytes at the peak of an analysis
 };
 // Checks, assembles and analyses, but factors nothing.

@@ -75,7 +75,11 @@ void check(const JumpEvent& jump, const Solver& solver, std::uint32_t found_vers
 
 // Histories that the host has changed since the solver was made: pattern, times, values.
 void write_histories(Writer& w, const Solver& solver) {
-    const std::vector<std::int64_t> changed = solver.changed_histories();
+    std::vector<std::int64_t> changed;
+    for (std::size_t p = 0; p < solver.first_patterns().size(); ++p) {
+        const Pattern &first = solver.first_patterns()[p], &now = solver.problem().patterns[p];
+        if (now.times != first.times || now.values != first.values) changed.push_back(static_cast<std::int64_t>(p));
+    }
     w.item(static_cast<std::uint64_t>(changed.size()));
     for (const std::int64_t p : changed) {
         const Pattern& pattern = solver.problem().patterns[index(p)];
@@ -197,6 +201,50 @@ void require_whole(const InputFile& file, Reader& r, std::uint64_t hash) {
         fail(DELAM_ERROR_SNAPSHOT, "snapshot is damaged: its checksum does not match its ", file.size(), " bytes");
 }
 
+// Scenes without stages save none: their states are as they were before there was such a thing.
+void write_stage(Writer& w, const Solver& solver) {
+    if (solver.stage() == nullptr) return;
+    const Stage& stage = solver.stage()->stage;
+    w.item(stage.from);
+    w.item(stage.offset);
+    w.item(stage.force);
+}
+
+std::optional<Stage> read_stage(Reader& r, const Solver& solver) {
+    if (solver.stage() == nullptr) return {};
+    const Problem& whole = *solver.stage()->whole;
+    Stage stage;
+    r.item(stage.from);
+    r.item(stage.offset);
+    r.item(stage.force);
+    const auto sound = [&](const std::vector<double>& values, auto member) {
+        bool all = values.size() == whole.constraints.size();
+        for (std::size_t c = 0; all && c < values.size(); ++c) {
+            const auto& change = whole.constraints[c].*member;
+            all = std::isfinite(values[c]) && (values[c] == 0.0 || (change && change->time <= stage.from));
+        }
+        return all;
+    };
+    const std::vector<double> changes = changes_of(whole);
+    const bool begins = std::find(changes.begin(), changes.end(), stage.from) != changes.end();
+    if (!std::isfinite(stage.from) || !sound(stage.offset, &Constraint::begin) ||
+        !sound(stage.force, &Constraint::end) || (max_abs(stage.offset) + max_abs(stage.force) > 0.0 && !begins))
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds supports from time ", stage.from,
+             " on, which this scene cannot have");
+    return stage;
+}
+
+// Reads what stands before the histories in complete bytes of this scene.
+void skip_head(Reader& r, const Solver& solver) {
+    std::uint64_t found_magic = 0, found_hash = 0;
+    std::uint32_t again = 0;
+    r.item(found_magic);
+    r.item(again);
+    r.item(found_hash);
+    if (found_hash != solver.scene_hash())
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot belongs to another scene or other options (its hash differs)");
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> save(const Solver& solver) {
@@ -204,6 +252,7 @@ std::vector<std::uint8_t> save(const Solver& solver) {
     w.item(magic);
     w.item(version);
     w.item(solver.scene_hash());
+    write_stage(w, solver);
     write_histories(w, solver);
     walk(w, solver.states().committed());
     write_list(w, solver.states().past());
@@ -216,13 +265,8 @@ std::vector<std::uint8_t> save(const Solver& solver) {
 void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     const std::uint32_t found_version = read_version(bytes);
     Reader r(bytes, found_version);
-    std::uint64_t found_magic = 0, found_hash = 0;
-    std::uint32_t again = 0;
-    r.item(found_magic);
-    r.item(again);
-    r.item(found_hash);
-    if (found_hash != solver.scene_hash())
-        fail(DELAM_ERROR_SNAPSHOT, "snapshot belongs to another scene or other options (its hash differs)");
+    skip_head(r, solver);
+    (void)read_stage(r, solver);
     std::vector<Pattern> patterns = solver.first_patterns();
     if (found_version >= 6) patterns = read_histories(r, std::move(patterns));
     State state;
@@ -252,13 +296,19 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     solver.restore(std::move(state), std::move(past), std::move(jumps), std::move(patterns), std::move(record));
 }
 
-void load_file(Solver& solver, const std::string& path) {
+std::vector<std::uint8_t> read_snapshot(const Solver& solver, const std::string& path) {
     const InputFile file(path);
     const std::vector<std::uint8_t> head = file.read(0, 2 * sizeof(std::uint64_t) + sizeof(std::uint32_t));
     Reader r(head, version);
     (void)read_head(r);
     if (file.size() > largest_unchecked) require_whole(file, r, solver.scene_hash());
-    load(solver, file.read(0, file.size()));
+    return file.read(0, file.size());
+}
+
+std::optional<Stage> stage_in(const Solver& solver, std::span<const std::uint8_t> bytes) {
+    Reader r(bytes, read_version(bytes));
+    skip_head(r, solver);
+    return read_stage(r, solver);
 }
 
 }  // namespace delam

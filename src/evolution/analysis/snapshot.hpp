@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,7 +17,9 @@ std::vector<std::uint8_t> save(const Solver& solver);
 // Throws Error(DELAM_ERROR_SNAPSHOT) for bytes that are damaged, of another version or of another scene; the solver is
 // then unchanged.
 void load(Solver& solver, std::span<const std::uint8_t> bytes);
-// The same from a file. Checks its first bytes before it takes memory for the others.
-void load_file(Solver& solver, const std::string& path);
+// Reads the bytes from a file. Checks the first of them before it takes memory for the others.
+std::vector<std::uint8_t> read_snapshot(const Solver& solver, const std::string& path);
+// Returns the stage of the state in bytes of this scene; nothing: the scene has no stages. Throws as load() does.
+std::optional<Stage> stage_in(const Solver& solver, std::span<const std::uint8_t> bytes);
 
 }  // namespace delam

@@ -11,6 +11,7 @@
 #include "base/numbers.hpp"
 #include "base/team.hpp"
 #include "evolution/analysis/parts_tangent.hpp"
+#include "evolution/analysis/take_over.hpp"
 #include "evolution/observe/balance.hpp"
 #include "evolution/observe/soundness.hpp"
 #include "evolution/observe/values.hpp"
@@ -21,6 +22,7 @@
 #include "evolution/step/turned_steps.hpp"
 #include "scene/advice/scene_warnings.hpp"
 #include "scene/check/step_control.hpp"
+#include "scene/check/validate_stages.hpp"
 
 namespace delam {
 
@@ -32,6 +34,18 @@ Problem with_used_control(Problem problem) {
     problem.options.step_control = control.name;
     problem.options.path_step = control.path_step;
     return problem;
+}
+
+std::optional<StageOf> first_stage(const Problem& problem, Monitor& monitor, double time) {
+    if (changes_of(problem).empty()) return {};
+    validate_stages(problem, time, [&monitor] { monitor.progress("check", 0, 0); });
+    const std::vector<double> none(problem.constraints.size(), 0.0);
+    return StageOf{std::make_shared<const Problem>(problem), {time, none, none}, next_change(problem, time)};
+}
+
+// Constraints that end before the analysis, or begin in it, do not hold in the first scene.
+Problem scene_at(const Problem& problem, double time) {
+    return changes_of(problem).empty() ? problem : scene_from(problem, time);
 }
 
 // Returns the operator that reads the states, after bodies that rotate have got steps of their own.
@@ -75,19 +89,34 @@ std::string what_did_not_converge(const State& state, const Options& options) {
 
 }  // namespace
 
-Solver::Solver(const Problem& problem, Monitor& monitor, double time, const Solver* other)
-    : problem_(with_used_control(problem)),
+// problem: the scene of the stage. hash: of that of the host.
+Solver::Solver(std::optional<StageOf> stage, const Problem& problem, std::uint64_t hash, Monitor& monitor,
+               const Solver* other)
+    : stage_(std::move(stage)),
+      problem_(with_used_control(problem)),
       given_(problem.options),
       control_(used_step_control(problem, problem.options)),
       first_patterns_(problem.patterns),
-      scene_hash_(hash(problem)),
+      scene_hash_(hash),
       monitor_(monitor),
       stepper_(problem_, monitor, Stepper::Checks::made_here, other != nullptr ? &other->stepper_ : nullptr),
       graph_(problem_.mesh->interfaces()),
       states_(keeps_past(problem_.options) ? problem_.options.backtracking_depth : 0),
       observer_(problem_, reading_operator(stepper_, problem_, monitor), stepper_.pairs(), stepper_.contact(),
                 stepper_.initial_adhesion(), stepper_.design().in_engine),
-      warnings_(problem_, monitor) {
+      warnings_(problem_, monitor) {}
+
+Solver::Solver(const Problem& problem, Monitor& monitor, double time, const Solver* other)
+    : Solver(first_stage(problem, monitor, time), scene_at(problem, time), hash(problem), monitor, other) {
+    begin(time);
+    warn_of_scene(problem_, monitor_);
+    const std::int64_t threads = problem_.options.threads;
+    if (threads > processors())
+        monitor_.log(1, text("option threads = ", threads, ": ", useful_threads(threads),
+                             " are used, the number of processors of this process"));
+}
+
+void Solver::begin(double time) {
     Stepper::Result first = stepper_.initial(time);
     states_.restore(std::move(first.state), {}, {});
     const State& initial = states_.committed();
@@ -95,11 +124,29 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time, const Solv
     if (!first.converged) initial_outcome_ = unconverged_displacement(initial);
     require_sound(problem_, initial, first.converged);
     judge_balance(initial, initial_outcome_);
-    warn_of_scene(problem_, monitor_);
-    const std::int64_t threads = problem_.options.threads;
-    if (threads > processors())
-        monitor_.log(1, text("option threads = ", threads, ": ", useful_threads(threads),
-                             " are used, the number of processors of this process"));
+}
+
+Solver::Solver(StageOf stage, const Solver& before, std::span<const double> displacement)
+    : Solver(stage, scene_of(*stage.whole, stage.stage), before.scene_hash_, before.monitor_, nullptr) {
+    if (displacement.empty()) {
+        begin(stage.stage.from);
+        return;
+    }
+    const State& there = before.states_.committed();
+    problem_.patterns = before.problem_.patterns;
+    Stepper::Result begun = take_over(stepper_, there, displacement);
+    if (!begun.converged) fail(DELAM_ERROR_NUMERICAL, "supports begin or end: ", unconverged_displacement(there).text);
+    require_sound(problem_, begun.state, true);
+    adopt(chosen(begun.state.growth.way, begun.state.ledger.dissipated, false));
+    whole_ = before.whole_;
+    states_.restore(std::move(begun.state), {}, before.states_.jumps());
+    record_ = before.record_;
+    warned_of_mixity_ = before.warned_of_mixity_;
+    warnings_.go_on_from(before.warnings_);
+    observer_.show(states_.committed());
+    Outcome balance;
+    judge_balance(states_.committed(), balance);
+    if (balance.status != 0) fail(DELAM_ERROR_NUMERICAL, "supports begin or end: ", balance.text);
 }
 
 bool share_bodies(const Solver& other, const Problem& problem) {
@@ -149,6 +196,13 @@ void Solver::require_nothing_pending(double time) const {
     if (!std::isfinite(time)) fail(DELAM_ERROR_ARGUMENT, "time = ", time, " must be finite");
 }
 
+void Solver::require_in_stage(double time) const {
+    if (stage_ && (time < stage_->stage.from || time > stage_->until))
+        fail(DELAM_ERROR_ARGUMENT, "time ", time, " lies beyond time ",
+             time > stage_->until ? stage_->until : stage_->stage.from,
+             ", at which supports begin or end: advance to that time first");
+}
+
 void Solver::note_jump(const State& before, State& after, std::vector<JumpEvent>& jumps) const {
     if (!delam::jumps(stepper_.pairs(), graph_, before, after)) return;
     jumps.push_back(describe_jump(stepper_.pairs(), graph_, before, after));
@@ -160,6 +214,7 @@ Outcome Solver::advance(double time) {
     const State& committed = states_.committed();
     if (time <= committed.time)
         fail(DELAM_ERROR_ARGUMENT, "time ", time, " is not after the committed time ", committed.time);
+    require_in_stage(time);
     const Options& options = problem_.options;
     Chain chain(states_.past(), committed);
     Stepper::Result result;
@@ -206,6 +261,7 @@ Outcome Solver::advance(double time) {
 
 Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
     require_nothing_pending(time);
+    require_in_stage(time);
     Stepper::Result result = stepper_.equilibrate(states_.committed(), time, adhesion);
     Outcome outcome;
     if (!result.converged) outcome = unconverged_displacement(result.state);
@@ -277,15 +333,6 @@ std::vector<double> Solver::values(const State& state, const std::vector<std::st
     return values;
 }
 
-std::vector<std::int64_t> Solver::changed_histories() const {
-    std::vector<std::int64_t> changed;
-    for (std::size_t p = 0; p < first_patterns_.size(); ++p)
-        if (problem_.patterns[p].times != first_patterns_[p].times ||
-            problem_.patterns[p].values != first_patterns_[p].values)
-            changed.push_back(static_cast<std::int64_t>(p));
-    return changed;
-}
-
 std::vector<double> Solver::step_tangent() {
     const PendingStep* pending = states_.pending();
     if (pending == nullptr || pending->state.step == states_.committed().step)
@@ -314,6 +361,7 @@ void Solver::take_whole_steps() {
 std::int64_t Solver::follow(std::span<const std::int64_t> interfaces, const std::string& key) {
     if (problem_.options.kinematics != "linear")
         fail(DELAM_ERROR_STATE, "sensitivities are not followed with kinematics = ", problem_.options.kinematics);
+    if (stage_) fail(DELAM_ERROR_STATE, "sensitivities are not followed where supports begin or end");
     const State& committed = states_.committed();
     if (states_.pending() != nullptr || committed.step != 0)
         fail(DELAM_ERROR_STATE, "sensitivities are followed from the initial state on: there are steps already");

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,8 +17,16 @@
 #include "evolution/step/stepper.hpp"
 #include "scene/check/step_control.hpp"
 #include "scene/problem.hpp"
+#include "scene/stage.hpp"
 
 namespace delam {
+
+// A stage of an analysis whose supports begin or end.
+struct StageOf {
+    std::shared_ptr<const Problem> whole;  // the scene of the host
+    Stage stage;
+    double until;  // the change of supports at which it ends; infinite: none
+};
 
 // Status with which a step ended; text is empty for DELAM_OK.
 struct Outcome {
@@ -28,6 +38,9 @@ class Solver {
 public:
     // The monitor must outlive the solver. other: the new one shares its condensed bodies, if they are the same.
     Solver(const Problem& problem, Monitor& monitor, double time, const Solver* other = nullptr);
+    // Goes on from where `before` has come to, under the supports of another stage. displacement: there, [mesh DOFs];
+    // empty: a state of this stage is about to be loaded.
+    Solver(StageOf stage, const Solver& before, std::span<const double> displacement);
     Solver(const Solver&) = delete;  // the stepper points into problem_
     Solver& operator=(const Solver&) = delete;
 
@@ -37,14 +50,14 @@ public:
     void rollback();
     // Changes the history of a pattern from the committed time on.
     void set_history(std::int64_t pattern, std::span<const double> times, std::span<const double> values);
-    // Patterns whose history was changed, with their present histories.
-    std::vector<std::int64_t> changed_histories() const;
     // Makes commit() record this value for every step, beginning with the committed state.
     void record(const std::string& key);
     const Record& recorded() const { return record_; }
     // Hash of the scene at the solver's creation.
     std::uint64_t scene_hash() const { return scene_hash_; }
     const States& states() const { return states_; }
+    // The stage in which it is; null: the scene has no stages.
+    const StageOf* stage() const { return stage_ ? &*stage_ : nullptr; }
     // Shows an earlier kept step (States::select).
     void select(std::int64_t step);
 
@@ -77,7 +90,13 @@ public:
     const Stepper& stepper() const { return stepper_; }
 
 private:
+    Solver(std::optional<StageOf> stage, const Problem& problem, std::uint64_t hash, Monitor& monitor,
+           const Solver* other);
+    // Computes the initial state.
+    void begin(double time);
     void require_nothing_pending(double time) const;
+    // The state must lie in this stage.
+    void require_in_stage(double time) const;
     Outcome unconverged_displacement(const State& state) const;
     struct Chosen {
         StepControl control;
@@ -89,6 +108,7 @@ private:
     void note_jump(const State& before, State& after, std::vector<JumpEvent>& jumps) const;
     void judge_balance(const State& state, Outcome& outcome);
 
+    std::optional<StageOf> stage_;
     Problem problem_;
     Options given_;  // before step control and path_step were chosen
     StepControl control_;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/monitor.hpp"
@@ -26,9 +27,11 @@ struct ContactResult {
 // The places of a state before a load step, which free parts keep.
 class PlacesBefore {
 public:
-    // All must outlive this object; a response without jumps: nothing has moved.
-    PlacesBefore(const JumpOperator& op, std::span<const double> theta, const Response& response)
-        : op_(op), theta_(theta), response_(response) {}
+    // All must outlive this object; a response without jumps: nothing has moved. displacement: [mesh DOFs]; empty: that
+    // of the response.
+    PlacesBefore(const JumpOperator& op, std::span<const double> theta, const Response& response,
+                 std::vector<double> displacement = {})
+        : op_(op), theta_(theta), response_(response), displacement_(std::move(displacement)) {}
     // Displacements [mesh DOFs], recovered when they are first asked for; empty: nothing has moved.
     const std::vector<double>& displacement() {
         if (displacement_.empty() && !response_.jump.empty()) displacement_ = op_.displacement(theta_, response_);

@@ -14,7 +14,10 @@ namespace delam {
 void drop_rounding(const Problem& problem, const JumpOperator& op, const ContactScene& contact, State& state) {
     Response& response = state.response;
     const double rounding = contact.rounding_of_forces(state.theta, response.jump);
-    if (!problem.eigenstrains.empty() || response.load_potential != 0.0 || max_abs(response.force) > rounding ||
+    const auto pushes = [&](const NodalForce& force) { return force.value * state.theta[index(force.pattern)] != 0.0; };
+    // A force on a node that a support holds does no work, but the support carries it.
+    if (!problem.eigenstrains.empty() || std::any_of(problem.forces.begin(), problem.forces.end(), pushes) ||
+        max_abs(response.force) > rounding ||
         !without_strain(problem, op.displacement(state.theta, response),
                         force_rounding * contact.prescribed_size(state.theta)))
         return;

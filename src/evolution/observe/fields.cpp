@@ -29,7 +29,11 @@ std::vector<double> unheld_motions(Observer& observer) {
 }
 
 std::vector<double> reactions_of(Observer& o) {
-    return o.jump_operator().reaction(o.state().theta, o.state().response);
+    const Problem& problem = o.problem();
+    const std::vector<double> own = o.jump_operator().reaction(o.state().theta, o.state().response);
+    std::vector<double> out(index(problem.numbered_constraints()), 0.0);  // 0: it does not hold now
+    for (std::size_t c = 0; c < own.size(); ++c) out[index(problem.number_of(c))] = own[c];
+    return out;
 }
 
 // Tells what a row of a field belongs to.
@@ -128,7 +132,7 @@ FieldShape field_shape(const Observer& observer, const std::string& key, std::in
         case Of::bodies:
             return {mesh.body_count(), columns};
         default:
-            return {static_cast<std::int64_t>(problem.constraints.size()), columns};
+            return {problem.numbered_constraints(), columns};
     }
 }
 

@@ -64,9 +64,10 @@ void require_supports(const Problem& problem, const State& state) {
     const std::int64_t dim = problem.mesh->dimension();
     const Constraint& constraint = problem.constraints[index(support.constraint)];
     const std::int64_t dof = constraint.dof.front();
-    fail(DELAM_ERROR_NUMERICAL, place_of(state), "support ", support.constraint, " (of ", constraint.dof.size(),
-         " displacements, first node ", dof / dim, ", component ", dof % dim, ") is violated by ", support.error,
-         ", of displacements up to ", support.size, ", allowed: ", SupportError::allowed(tolerance),
+    fail(DELAM_ERROR_NUMERICAL, place_of(state), "support ", problem.number_of(index(support.constraint)), " (of ",
+         constraint.dof.size(), " displacements, first node ", dof / dim, ", component ", dof % dim,
+         ") is violated by ", support.error, ", of displacements up to ", support.size,
+         ", allowed: ", SupportError::allowed(tolerance),
          " of these; the iterative linear solve has lost its digits: try reduction = condensed");
 }
 

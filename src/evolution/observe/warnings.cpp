@@ -31,6 +31,15 @@ Warnings::Warnings(const Problem& problem, Monitor& monitor) : problem_(problem)
     }
 }
 
+void Warnings::go_on_from(const Warnings& before) {
+    most_ = before.most_;
+    told_of_estimate_ = before.told_of_estimate_;
+    told_of_ledger_ = before.told_of_ledger_;
+    told_of_front_ = before.told_of_front_;
+    told_of_rotation_ = before.told_of_rotation_;
+    told_of_balance_ = before.told_of_balance_;
+}
+
 void Warnings::judge_ledger(const State& after, const Options& options) {
     const Ledger& ledger = after.ledger;
     const double scale = ledger.scale(), eta = options.backtracking_tolerance;

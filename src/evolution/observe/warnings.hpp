@@ -18,6 +18,8 @@ class Warnings {
 public:
     // Both must outlive them.
     Warnings(const Problem& problem, Monitor& monitor);
+    // Warns of nothing again that the host was warned of before a stage of the analysis (scene/stage.hpp).
+    void go_on_from(const Warnings& before);
     // Warns of a step whose energy lies outside its two-sided estimate, and of a ledger that does not close.
     void judge_ledger(const State& after, const Options& options);
     // Says when the adhesion loses a symmetry of the scene, once for each. Finds them at the first

@@ -61,8 +61,7 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor, Checks checks, const 
     design_ = other ? design_operator(problem_, monitor_, other->design_) : design_operator(problem_, monitor_);
     if (problem_.options.kinematics != "linear") {
         // Bodies that rotate have no operator that would hold in all steps (turned_steps.hpp).
-        ReductionChoice choice = std::move(design_.choice);
-        (design_ = Design()).choice = std::move(choice);
+        design_ = Design(std::move(design_.choice));
         contact_.parts = nullptr;
         return;
     }
@@ -458,7 +457,8 @@ void Stepper::search(Result& best, const StepRule& step) {
              found.words);
 }
 
-Stepper::Result Stepper::equilibrate(const State& before, double time, std::span<const double> adhesion) {
+Stepper::Result Stepper::equilibrate(const State& before, double time, std::span<const double> adhesion,
+                                     std::vector<double> displacement) {
     if (other_) return other_->equilibrate(before, time, adhesion);
     Result result{before, true};
     State& next = result.state;
@@ -469,7 +469,7 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
         if (!(next.adhesion[p] >= 0.0 && next.adhesion[p] <= 1.0))
             fail(DELAM_ERROR_ARGUMENT, "adhesion of pair ", p, " is ", next.adhesion[p], ", allowed: 0 to 1");
     const std::unique_ptr<StepRule> still = increment(before, next.mixity);
-    places_.emplace(*operator_, before.theta, before.response);
+    places_.emplace(*operator_, before.theta, before.response, std::move(displacement));
     result.converged = minimiser().displace(next, *still);
     places_.reset();
     next.mixity = still->shown(next.response.jump, std::move(next.mixity));

@@ -59,8 +59,10 @@ public:
     };
     // stride: the largest share of its toughness that a pair may dissipate in a part; 0: the option path_step.
     Result step(const State& before, double time, std::span<const Start> also = {}, double stride = 0.0);
-    // Displacements alone, at the state's adhesion and a time.
-    Result equilibrate(const State& before, double time, std::span<const double> adhesion);
+    // Displacements alone, at the state's adhesion and a time. displacement: of `before`, [mesh DOFs]; empty: that of
+    // its response.
+    Result equilibrate(const State& before, double time, std::span<const double> adhesion,
+                       std::vector<double> displacement = {});
     // Steps that are made of those of other scenes, answering as those here do.
     struct OtherSteps {
         virtual ~OtherSteps() = default;

@@ -334,6 +334,7 @@ Design of_condensed(Design design, const Problem& problem, std::shared_ptr<Bulk>
 }  // namespace
 
 Design::Design() = default;
+Design::Design(ReductionChoice made) : choice(std::move(made)) {}
 Design::Design(Design&&) noexcept = default;
 Design& Design::operator=(Design&&) noexcept = default;
 Design::~Design() = default;
@@ -432,10 +433,8 @@ Design design_operator(const Problem& problem, Monitor& monitor) {
     const Realisation first = design.choice.realisation;
     prefer_what_fits(design.choice);
     if (design.choice.realisation != first) {
-        Design feti;
-        feti.choice = std::move(design.choice);
-        design = Design();  // its matrices go before FETI makes others
-        design = of_feti(std::move(feti), problem, monitor);
+        design = Design(std::move(design.choice));  // its matrices go before FETI makes others
+        design = of_feti(std::move(design), problem, monitor);
     }
     if (design.choice.realisation == Realisation::feti && !design.choice.forced)
         monitor.log(1, text("FETI is used because nothing else fits: ", design.choice.reason));

@@ -99,6 +99,7 @@ struct Design {
     const EngineOperator* in_engine = nullptr;  // the operator's, if the bodies are an engine's of the host
 
     Design();
+    explicit Design(ReductionChoice made);  // that has nothing else
     Design(Design&&) noexcept;
     Design& operator=(Design&&) noexcept;
     ~Design();

@@ -164,8 +164,8 @@ void check_constraints(const Problem& problem) {
         if (row.terms.empty()) {
             const bool agrees =
                 std::all_of(row.right.begin(), row.right.end(), [&](double r) { return std::abs(r) <= 1e-9 * scale; });
-            fail(DELAM_ERROR_PROBLEM, "constraint ", i, " (of ", c.dof.size(), " displacements, the first at node ",
-                 c.dof.front() / problem.mesh->dimension(), ") ",
+            fail(DELAM_ERROR_PROBLEM, "constraint ", problem.number_of(i), " (of ", c.dof.size(),
+                 " displacements, the first at node ", c.dof.front() / problem.mesh->dimension(), ") ",
                  agrees ? "follows from other constraints" : "contradicts other constraints");
         }
         const auto largest = std::max_element(row.terms.begin(), row.terms.end(), [](const auto& a, const auto& b) {

@@ -328,6 +328,10 @@ BREAKS = {
         coefficients=lambda v, g: [n / max(1.0, math.hypot(*g["direction"][:2])) for n in v])),
     "means without weights": ("prescribed displacements", given("problem_prescribe_mean", weights=each(lambda n: 1.0))),
     "equations by component": ("prescribed displacements", given("problem_add_equation", coefficients=by(2))),
+    "constraints that end count from 1": ("constraints that begin and end", given(
+        "problem_end_constraints", first=lambda v, g: v - 1)),
+    "constraints that begin count from 1": ("constraints that begin and end", given(
+        "problem_begin_constraints", first=lambda v, g: v - 1)),
     "right sides by pattern": ("prescribed displacements", told("problem_constraints", coefficients=by(3))),
     "reaction on the machine": ("prescribed displacements", field("reaction", NEGATED)),
     "control nodes": ("periodic cell", given("problem_add_periodic", control_nodes=swap(0, 1))),

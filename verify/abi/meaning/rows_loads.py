@@ -102,6 +102,28 @@ def prescribed(host, see):
              rel=1e-8)
 
 
+@row("constraints that begin and end")
+def begin_and_end(host, see):
+    """The top of a bar of stiffness 1/2, moved by a force of 0.2, is taken where it is, on its way to zero, and let
+    go."""
+    problem = host("problem_create", host.context, cells(host, 1, 2), Out())
+    host("problem_set_elastic", problem, 0, 1.0, 0.0)
+    scenes.hold(host, problem, [0, 1, 2, 3], [[1.0, 0.0]])
+    scenes.hold(host, problem, [0, 1], [[0.0, 1.0]])
+    host("problem_add_forces", problem, scenes.ramp(host, problem), 2, [2, 3], [0.0, 0.1, 0.0, 0.1], 0)
+    scenes.hold(host, problem, [2, 3], [[0.0, 1.0]])
+    found = scenes.ramp(host, problem, "found", [1.0, 3.0], [2.0, 0.0])
+    left = scenes.ramp(host, problem, "left", [2.0, 4.0], [4.0, 0.0])
+    host("problem_begin_constraints", problem, 6, 2, 1.0, found)
+    host("problem_end_constraints", problem, 6, 2, 2.0, left)
+    solver = host("solver_create", problem, 0.0, Out())
+    for time, place, force in ((1.0, 0.4, 0.0), (1.5, 0.3, -0.05), (2.0, 0.2, -0.1), (3.0, 0.3, 0.0), (4.0, 0.4, 0.0)):
+        host("solver_advance", solver, time)
+        host("solver_commit", solver)
+        see.near(f"place at {time}", field(host, solver, "displacement")[3][1], place, "L")
+        see.near(f"reactions at {time}", sum(r[0] for r in field(host, solver, "reaction")[6:8]), force, "F")
+
+
 @row("constraints of tied nodes")
 def tied(host, see):
     """A tied node at a quarter of the lower body's face: its displacements are those of the ends of the face."""

@@ -347,6 +347,25 @@ class Problem(Object):
         self._call(library.delam_problem_add_equation, nodes.size, pointer(nodes), pointer(coefficients), patterns.size,
                    pointer(patterns), pointer(prescribed), 0, long=True)
 
+    def begin_constraints(self, first: int, count: int, time: float, pattern: int | str | Pattern) -> None:
+        """Lets constraints first .. first + count - 1, as they were added, begin within the analysis.
+
+        time     up to which the analysis goes on without them; a load step must end there
+        pattern  its factor, over that at `time`, is what is left of the way from where the nodes are at `time` to where
+                 they are prescribed: constant for displacements that count from there, 1 to 0 for a way to them"""
+        self._change(library.delam_problem_begin_constraints, first, count, time, pattern, "displacement")
+
+    def end_constraints(self, first: int, count: int, time: float, pattern: int | str | Pattern) -> None:
+        """Lets constraints end within the analysis: from `time` on, the forces that they had, times the factor of a
+        pattern over that at `time`, take their place. Other arguments are those of begin_constraints."""
+        self._change(library.delam_problem_end_constraints, first, count, time, pattern, "force")
+
+    def _change(self, function: Any, first: int, count: int, time: float, pattern: int | str | Pattern,
+                drives: str) -> None:
+        index = self.pattern(pattern)
+        self._call(function, integer("first", first), integer("count", count), number("time", time), index)
+        self._drives.setdefault(index, drives)
+
     def add_periodic(self, periods: ArrayLike, control_nodes: ArrayLike, tolerance: float = 0.0) -> None:
         """u(x + period_k) - u(x) = u of control node k, on opposite faces of the mesh. periods: [periods][dimension],
         lengths; control_nodes: [periods]; tolerance: a fraction of the shortest edge, 0: 1e-6. MeshError: faces do not

@@ -165,6 +165,10 @@ DELAM_API int32_t delam_problem_prescribe_mean(delam_problem *problem, int64_t c
 DELAM_API int32_t delam_problem_add_equation(delam_problem *problem, int64_t count, const int64_t *nodes,
                                              const double *coefficients, int64_t pattern_count, const int64_t *patterns,
                                              const double *prescribed, int32_t index_base);
+DELAM_API int32_t delam_problem_begin_constraints(delam_problem *problem, int64_t first, int64_t count, double time,
+                                                  int64_t pattern);
+DELAM_API int32_t delam_problem_end_constraints(delam_problem *problem, int64_t first, int64_t count, double time,
+                                                int64_t pattern);
 DELAM_API int32_t delam_problem_add_periodic(delam_problem *problem, int64_t period_count, const double *periods,
                                              const int64_t *control_nodes, double tolerance, int32_t index_base);
 DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t pattern, int64_t count, const int64_t *nodes,

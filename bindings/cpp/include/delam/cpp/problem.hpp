@@ -166,6 +166,14 @@ public:
         shared_->check(delam_problem_add_equation(get(), nodes.count(), nodes.data(), coefficients.data(),
                                                   patterns.count(), patterns.data(), prescribed.data(), 0));
     }
+    // Constraints, in the order in which they were added, begin at a time, from where the nodes are then; or end, and
+    // leave their forces. pattern: its factor, over that at the time, is what is left of either.
+    void begin_constraints(std::int64_t first, std::int64_t count, double time, std::int64_t pattern) {
+        shared_->check(delam_problem_begin_constraints(get(), first, count, time, pattern));
+    }
+    void end_constraints(std::int64_t first, std::int64_t count, double time, std::int64_t pattern) {
+        shared_->check(delam_problem_end_constraints(get(), first, count, time, pattern));
+    }
     // periods: [control nodes][dimension]
     void add_periodic(View<double> periods, View<std::int64_t> control_nodes, double tolerance = 0.0) {
         in_space(periods.size(), control_nodes.size());

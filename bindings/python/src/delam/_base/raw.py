@@ -227,6 +227,12 @@ FUNCTIONS: dict[str, tuple[Any, tuple[tuple[str, Any], ...]]] = {
         ("problem", POINTER(delam_problem)), ("count", c_int64), ("nodes", POINTER(c_int64)),
         ("coefficients", POINTER(c_double)), ("pattern_count", c_int64), ("patterns", POINTER(c_int64)),
         ("prescribed", POINTER(c_double)), ("index_base", c_int32))),
+    "delam_problem_begin_constraints": (c_int32, (
+        ("problem", POINTER(delam_problem)), ("first", c_int64), ("count", c_int64), ("time", c_double),
+        ("pattern", c_int64))),
+    "delam_problem_end_constraints": (c_int32, (
+        ("problem", POINTER(delam_problem)), ("first", c_int64), ("count", c_int64), ("time", c_double),
+        ("pattern", c_int64))),
     "delam_problem_add_periodic": (c_int32, (
         ("problem", POINTER(delam_problem)), ("period_count", c_int64), ("periods", POINTER(c_double)),
         ("control_nodes", POINTER(c_int64)), ("tolerance", c_double), ("index_base", c_int32))),

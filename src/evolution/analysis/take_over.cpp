@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/analysis/take_over.hpp"
+
+#include <vector>
+
+namespace delam {
+
+Stepper::Result take_over(Stepper& stepper, const State& before, std::span<const double> displacement) {
+    State from = before;
+    // Bodies that rotate know their state by its displacements, others by unknowns of their operator.
+    if (stepper.op().turned(before.response) == nullptr) {
+        from.response.multipliers.clear();
+        from.response.rigid.clear();
+        from.memory.clear();
+        from.search_memory.clear();
+    }
+    from.search_energies.clear();
+    Stepper::Result result = stepper.equilibrate(from, before.time, {}, {displacement.begin(), displacement.end()});
+    State& next = result.state;
+    next.mixity = before.mixity;
+    next.effort = before.effort;
+    next.outcome = before.outcome;
+    next.history = before.history;
+    next.jump_within = before.jump_within;
+    next.jump_before = before.jump_before;
+    next.growth = {};
+    next.growth.way = before.growth.way;
+    const double potential = next.ledger.load_potential - before.ledger.load_potential;
+    next.ledger.initial = before.ledger.initial + potential;
+    next.ledger.initial_linear = before.ledger.initial_linear + potential;
+    return result;
+}
+
+}  // namespace delam
