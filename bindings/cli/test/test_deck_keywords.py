@@ -1,64 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Keywords of decks one by one, each in a deck of two blocks whose answer is known in closed form."""
-import csv
 import math
 import os
 
+from block_deck import (LAW, NODES, POISSON, SECTION, STIFFNESS, SURFACES, YOUNG, close, deck, history, imported, refused)
 from support import delam, expect, expect_error, finish, folder, write
-
-YOUNG, POISSON, STRENGTH, STIFFNESS = 1000.0, 0.3, 1.0, 1000.0
-
-# Two rows of four square cells; the upper one has nodes of its own where they meet.
-NODES = [(1 + i + 5 * j + (91 if j > 1 else 0), float(i), float(j - (j > 1))) for j in range(4) for i in range(5)]
-COHESIVE = ("*Element, type=COH2D4, elset=Coh\n" +
-            "".join(f"{201 + i}, {6 + i}, {7 + i}, {103 + i}, {102 + i}\n" for i in range(4)))
-SECTION = "*Cohesive section, elset=Coh, material=C, response=TRACTION SEPARATION\n1.\n"
-LAW = (f"*Material, name=C\n*Elastic, type=TRACTION\n{STIFFNESS}, {STIFFNESS}, {STIFFNESS}\n"
-       f"*Damage initiation, criterion=QUADS\n{STRENGTH}, {STRENGTH}, {STRENGTH}\n"
-       "*Damage evolution, type=ENERGY\n0.01,\n")
-SURFACES = "*Surface, name=Lower\nLow, S3\n*Surface, name=Upper\nUp, S1\n"
-
-
-def cells(name, first, below):
-    return (f"*Element, type=CPS4, elset={name}\n" +
-            "".join(f"{first + i}, {below + i}, {below + i + 1}, {below + i + 6}, {below + i + 5}\n" for i in range(4)))
-
-
-def deck(cohesive=True, extra="", elastic=f"*Elastic\n{YOUNG}, {POISSON}\n", static="*Static\n0.1, 1., 1e-5, 0.1\n",
-         loads="Top, 2, 2, 0.03\n", before="", after="", held="Bottom, 2\n1, 1\nTop, 1\n", nodes=None):
-    text = before + "*Heading\na block upon another\n*Node\n"
-    text += "".join(f"{n}, {x}, {y}\n" for n, x, y in nodes or NODES)
-    text += cells("Low", 1, 1) + cells("Up", 101, 102) + (COHESIVE if cohesive else "")
-    text += "*Nset, nset=Bottom, generate\n1, 5\n*Nset, nset=Top, generate\n107, 111\n*Nset, nset=All\nBottom, Top\n"
-    text += "*Solid section, elset=Low, material=M\n1.\n*Solid section, elset=Up, material=M\n1.\n"
-    text += (SECTION if cohesive else "") + "*Material, name=M\n" + elastic + (LAW if cohesive else "") + extra
-    return text + f"*Step\n{static}*Boundary\n{held}{loads}{after}*End step\n"
-
-
-def history(text, *words):
-    place = folder()
-    out = os.path.join(place, "out")
-    code, said, error = delam("run", write(text, "deck.inp", place), "--out", out, *words)
-    expect(code == 0, f"exit {code}: {error.strip()[:300]}")
-    if code != 0:
-        return [], said + error
-    with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
-        return [{k: float(v) for k, v in row.items() if k not in ("solution", "mixity_rule")}
-                for row in csv.DictReader(file)], said + error
-
-
-def imported(text):
-    code, scene, said = delam("import", write(text, "deck.inp"))
-    expect(code == 0, f"import: exit {code} {said.strip()[:300]}")
-    return scene, said
-
-
-def refused(text, *patterns):
-    expect_error(delam("import", write(text, "deck.inp")), 2, *patterns)
-
-
-def close(what, found, wanted, allowed=1e-9):
-    expect(math.isclose(found, wanted, rel_tol=allowed, abs_tol=1e-14), f"{what}: {found}, {wanted} is expected")
 
 
 def check_increments():
@@ -362,19 +308,6 @@ def check_left_out():
         expect(("4 cohesive elements of the mesh left out" in said) == left, f"{held}: {said[-900:]}")
 
 
-def check_supports_that_end():
-    """A step whose OP=NEW frees supports is told which lines keep them; with these lines it runs."""
-    second = "*Step\n*Static\n0.1, 1., 1e-5, 0.1\n*Boundary, op=NEW\n{}*End step\n"
-    text = deck() + second.format("Bottom, 2\n1, 1\n")
-    line = 1 + text.splitlines().index("*Boundary, op=NEW")
-    refused(text, rf"deck\.inp:{line}: \*BOUNDARY: OP=NEW frees .*\"Top, 1\", \"Top, 2, 2, 0.03\", or end the analysis")
-    rows, _ = history(deck() + second.format("Bottom, 2\n1, 1\nTop, 1\nTop, 2, 2, 0.03\n"))
-    expect(len(rows) == 21, f"with its lines: {len(rows)} instants")
-    close("what is kept", rows[-1]["load"], 0.03)
-    many = "".join(f"{n}, 2\n" for n in range(1, 6))
-    refused(deck(held=many + "1, 1\nTop, 1\n") + second.format("Top, 2, 2, 0.03\n"), r'"1, 2", .* and 3 more, or end')
-
-
 def check_cohesive_nodes():
     """An element whose nodes begin at another corner is told its order, with which it runs."""
     text = deck()
@@ -441,7 +374,6 @@ check_cae()
 check_increments()
 check_parameters()
 check_temperatures()
-check_supports_that_end()
 check_cohesive_nodes()
 check_messages()
 check_left_out()

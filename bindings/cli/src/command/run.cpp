@@ -120,6 +120,7 @@ public:
         rows_.emplace(running_history_, step + 1, sealed ? std::optional(state.companions.history) : std::nullopt);
         const std::string text = rows_->text();
         history_.go_on_under(text.substr(0, text.find('\n') + 1));
+        if (fields_.judges()) last_seen_ = to_the_end([this] { return sight(); });
         write_atomic(running_origin_, packed(origin_));
     }
 

@@ -5,17 +5,30 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
+#include <optional>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "deck/cards/deck.hpp"
 #include "deck/deck_points.hpp"
+#include "text/toml_text.hpp"
 
 namespace cli::abaqus {
+
+// When a support holds (SCENE.md); nothing: from the first instant, or to the last.
+struct Times {
+    std::optional<double> from, reached, until, released;
+
+    [[nodiscard]] std::string text() const {
+        std::string out;
+        for (const auto& [key, time] :
+             {std::pair("from", from), {"reached", reached}, {"until", until}, {"released", released}})
+            if (time) out += fmt::format("{} = {}\n", key, toml_number(*time));
+        return out;
+    }
+};
 
 // Holds what one line of the deck prescribes, over all steps. Behind its last point it is constant.
 struct History {
@@ -27,6 +40,7 @@ struct History {
     const LoadLine* follows = nullptr;  // the last line that prescribed it
     std::size_t before = 1;             // points of the steps before this one
     std::size_t given = 0;              // the last step that has a line for it
+    Times times{};                      // of a displacement
 
     void hold_until(double time) {
         if (points.back().first < time) points.emplace_back(time, points.back().second);
@@ -39,25 +53,5 @@ struct History {
         return out;
     }
 };
-
-// Supports hold to the end of the analysis: OP=NEW at `place` must give again in this step what would end.
-inline void require_held(const std::map<std::size_t, History*>& ending, std::size_t step, const Place& place) {
-    constexpr std::size_t most_named = 4;
-    std::vector<std::string> freed;
-    for (const auto& [number, history] : ending) {
-        if (history->force || history->given == step) continue;
-        const double value = history->points.back().second;
-        freed.push_back(fmt::format("{}, {}", history->line.where.text, history->dof));
-        if (value != 0) freed.back() += fmt::format(", {}, {}", history->dof, value);
-    }
-    if (freed.empty()) return;
-    const std::size_t count = freed.size();
-    freed.resize(std::min(count, most_named));
-    throw SceneFailure(place, fmt::format("OP=NEW frees what steps before have prescribed: supports that end are not "
-                                          "imported; to keep them, write below this line \"{}\"{}, or end the analysis "
-                                          "with the step before",
-                                          fmt::join(freed, "\", \""),
-                                          count > most_named ? fmt::format(" and {} more", count - most_named) : ""));
-}
 
 }  // namespace cli::abaqus

@@ -14,6 +14,7 @@
 
 #include "deck/deck_bodies.hpp"
 #include "deck/deck_history.hpp"
+#include "deck/deck_instants.hpp"
 #include "deck/deck_points.hpp"
 #include "deck/deck_temperatures.hpp"
 #include "deck/deck_transforms.hpp"
@@ -24,10 +25,6 @@ namespace cli::abaqus {
 namespace {
 
 constexpr std::int64_t most_single_nodes = 200;
-constexpr double most_increments = 100000;
-// The default of smallest_step (src/scene/options.inc): a shorter least increment sets no limit. Half and twice of it
-// is one halving more or less (ctest -R cli_decks).
-constexpr double default_substep = 1e-4;
 constexpr std::size_t most_points = 10000000;  // of all histories: each line may follow a long amplitude
 
 // Made of points whose largest is 1, which the factor multiplies by `peak`.
@@ -53,13 +50,15 @@ public:
         for (auto& [key, history] : histories_) history.hold_until(time_);
         for (auto& [body, history] : heated_) history.hold_until(time_);
         say_width();
-        std::string out = time_text();
+        std::string out = instants_.text(time_);
         std::string loads;
         std::map<std::string, std::vector<std::size_t>> held;  // places with nothing but 0
         std::vector<std::pair<std::string, Place>> order;
         std::map<std::string, int> moved;  // places by pattern
         for (const auto& key : keys_) {
             const History& history = histories_.at(key);
+            if (history.times.until && *history.times.until == 0)
+                continue;  // of the model, taken away by the first step
             if (history.force) {
                 loads += force_text(history, key.dof);
             } else if (history.peak() != 0) {
@@ -68,17 +67,19 @@ public:
                 const auto turned = transforms_.direction(history.line.where, key.dof);
                 for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof))
                     loads += fmt::format(
-                        "{}[[loads]]\n{}{}\npattern = {}\n{}\n", origin_line(history.line.where.place), place,
+                        "{}[[loads]]\n{}{}{}\npattern = {}\n{}\n", origin_line(history.line.where.place), place,
+                        history.times.text(),
                         turned ? "direction = " + toml_list(*turned)
                                : fmt::format("component = [\"{}\"]", axis_names[axis]),
                         toml_text(pattern),
                         coefficient == 1 ? "" : fmt::format("coefficient = {}\n", toml_number(coefficient)));
             } else if (const auto turned = transforms_.direction(history.line.where, key.dof)) {
                 for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof))
-                    out += fmt::format("{}[[supports]]\n{}direction = {}\n\n", origin_line(history.line.where.place),
-                                       place, toml_list(*turned));
+                    out += fmt::format("{}[[supports]]\n{}{}direction = {}\n\n", origin_line(history.line.where.place),
+                                       place, history.times.text(), toml_list(*turned));
             } else {
-                for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof)) {
+                for (const auto& [at, axis, control] : prescribed(history.line.where, key.dof)) {
+                    const std::string place = at + history.times.text();
                     if (!held.contains(place)) order.emplace_back(place, history.line.where.place);
                     held[place].push_back(axis);
                 }
@@ -108,8 +109,10 @@ private:
         std::string place;
         int dof;
         std::string distributed;
+        int part = 0;  // a support that has ended and begins again is another one
         bool operator<(const Key& other) const {
-            return std::tie(place, dof, distributed) < std::tie(other.place, other.dof, other.distributed);
+            return std::tie(place, dof, distributed, part) <
+                   std::tie(other.place, other.dof, other.distributed, other.part);
         }
     };
 
@@ -134,13 +137,17 @@ private:
             say_once(deck_.left_out, text);
             return nullptr;
         }
-        const Key key{(force ? "force " : "") + upper(line.where.text), dof, line.distributed};
+        Key key{(force ? "force " : "") + upper(line.where.text), dof, line.distributed};
+        for (auto at = histories_.find(key); at != histories_.end() && at->second.times.until;
+             at = histories_.find(key))
+            ++key.part;
         const auto [found, inserted] = histories_.emplace(key, History{line, dof, force, histories_.size()});
         if (inserted) {
             keys_.push_back(key);
-            if (time_ > 0 && !force)
-                throw SceneFailure(line.where.place,
-                                   "is prescribed from a later step on, and was free before: this is not imported");
+            if (time_ > 0 && !force) {
+                found->second.times.from = time_;
+                found->second.points = {{time_, 0.0}};
+            }
         }
         acting_[kind_of(found->second)].emplace(found->second.number, &found->second);
         return &found->second;
@@ -189,9 +196,14 @@ private:
                 if (inserted) at->second.points = {{0.0, temperatures_.initial(body)}};
                 follow(at->second, step, line, end);
             }
-        require_held(ending, step_, step.renewed);
         for (const auto& [number, history] : ending) {
             if (history->given == step_) continue;
+            if (!history->force) {
+                history->times.until = time_;
+                history->times.released = step.ramp ? end : first_increment(step);
+                in_total_time_.erase(number);
+                continue;
+            }
             LoadLine ended = history->line;
             ended.magnitude = 0;
             ended.amplitude.clear();
@@ -204,17 +216,7 @@ private:
                 history->hold_until(time_);
                 extend(*history, step, *history->follows, end);
             }
-        const double wanted = std::ceil(step.period / step.increment * (1 - 1e-9));
-        if (!(wanted + static_cast<double>(instants_.size()) <= most_increments))
-            throw SceneFailure(step.place, fmt::format("{:.6g} increments of {}: at most {} in all steps", wanted,
-                                                       step.increment, most_increments));
-        const auto increments = static_cast<std::int64_t>(wanted);
-        for (std::int64_t i = 1; i <= increments; ++i)
-            instants_.push_back(
-                i == increments ? end : time_ + step.period * static_cast<double>(i) / static_cast<double>(increments));
-        sizes_.push_back(step.period / static_cast<double>(increments));
-        if (step.least_increment > default_substep * sizes_.back())
-            substep_ = std::min(substep_, step.least_increment / sizes_.back());
+        instants_.add(step, time_);
         time_ = end;
     }
 
@@ -240,21 +242,50 @@ private:
         return line.rate || (amplitude != nullptr && amplitude->total_time);
     }
 
+    [[nodiscard]] double first_increment(const Step& step) const {
+        return time_ + std::min(step.increment, step.period);
+    }
+
+    // A support that begins in this step finds its nodes somewhere. They go from there to where it is at the end of the
+    // step, or, where it does not grow over the step, over the first increment; or all it says counts from there.
+    void begin(History& history, const Step& step, const LoadLine& line, double end) {
+        const Amplitude* amplitude = amplitude_of(line);
+        if (line.rate || line.fixed) return history.times.reached.reset();
+        const bool grows = amplitude == nullptr && step.ramp;
+        history.times.reached = grows ? end : first_increment(step);
+        double value = step.ramp ? 0.0 : line.magnitude;
+        if (amplitude != nullptr)
+            value = (amplitude->absolute ? 1.0 : line.magnitude) *
+                    between(lines_of_amplitude(*amplitude), amplitude->total_time ? time_ : 0.0);
+        if (value != 0) history.points = {{0.0, 0.0}, {time_, value}};
+        if (!grows)
+            say_once(deck_.changed,
+                     fmt::format("{}: \"{}\" begins at a step: it moves to there over the first increment",
+                                 line.where.place.text(), line.where.text));
+    }
+
+    const Points& lines_of_amplitude(const Amplitude& amplitude) {
+        const auto [known, inserted] = lines_.try_emplace(&amplitude);
+        if (inserted) known->second = lines_of(amplitude);
+        return known->second;
+    }
+
     // Continues from the last point to the end of the step.
     void extend(History& history, const Step& step, const LoadLine& line, double end) {
+        if (history.times.from && *history.times.from == time_) begin(history, step, line, end);
         const double last = history.points.back().second;
         const Amplitude* amplitude = amplitude_of(line);
         Points next;
-        if (line.rate) {
+        if (line.fixed) {
+            next = {{time_, last}, {end, last}};
+        } else if (line.rate) {
             next = {{time_, last}, {end, last + line.magnitude * step.period}};
         } else if (amplitude == nullptr) {
             next = {{time_, step.ramp ? last : line.magnitude}, {end, line.magnitude}};
         } else {
             const double origin = amplitude->total_time ? 0.0 : time_;
             const double factor = amplitude->absolute ? 1.0 : line.magnitude;
-            const auto [known, inserted] = lines_.try_emplace(amplitude);
-            if (inserted) known->second = lines_of(*amplitude);
-            const Points& lines = known->second;
+            const Points& lines = lines_of_amplitude(*amplitude);
             next.emplace_back(time_, factor * between(lines, time_ - origin));
             const auto within = [&](const auto& point) { return point.first + origin <= time_; };
             for (auto at = std::partition_point(lines.begin(), lines.end(), within);
@@ -263,7 +294,7 @@ private:
             next.emplace_back(end, factor * between(lines, end - origin));
         }
         if (next.front().second != last) {
-            const double first = time_ + std::min(step.increment, step.period);
+            const double first = first_increment(step);
             const double value = between(next, first);
             std::erase_if(next, [&](const auto& point) { return point.first <= first; });
             next.insert(next.begin(), {first, value});
@@ -288,21 +319,6 @@ private:
                 fmt::format("the plane mesh is {} thick: the scene is per unit of thickness, and its "
                             "reactions and energies are to be multiplied by this",
                             deck_.width));
-    }
-
-    std::string time_text() {
-        const std::string solver =
-            substep_ < 1 ? fmt::format("[solver]\nsmallest_step = {}\n\n", toml_number(substep_)) : "";
-        return instants_text() + solver;
-    }
-
-    std::string instants_text() const {
-        const auto [least, most] = std::minmax_element(sizes_.begin(), sizes_.end());
-        if (*most - *least <= 1e-9 * *most)
-            return fmt::format("[time]\nstart = 0.0\nend = {}\nsteps = {}\n\n", toml_number(time_), instants_.size());
-        std::vector<double> all{0.0};
-        all.insert(all.end(), instants_.begin(), instants_.end());
-        return fmt::format("[time]\ninstants = {}\n\n", toml_list(all));
     }
 
     // A pattern, and what its factor is multiplied by to give these values. The first of several that are in proportion
@@ -471,9 +487,8 @@ private:
     std::map<std::size_t, History*> in_total_time_;
     std::size_t step_ = 0, points_ = 0;
     std::string patterns_;
-    std::vector<double> instants_, sizes_;
+    Instants instants_;
     double time_ = 0;
-    double substep_ = 1;  // the least increment of all steps, as a part of the load step
 };
 
 }  // namespace

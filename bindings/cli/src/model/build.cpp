@@ -2,11 +2,15 @@
 #include "model/build.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <unordered_set>
+
+#include <fmt/format.h>
 
 #include "model/build_constraints.hpp"
 #include "model/build_contact.hpp"
@@ -81,9 +85,64 @@ void set_interfaces(Model& model, const Scene& scene) {
     }
 }
 
-// Nodes by what is prescribed there: direction, patterns and coefficients.
-using Prescribed = std::map<std::tuple<std::vector<double>, std::vector<std::int64_t>, std::vector<double>>,
+// Nodes by what is prescribed there: direction, patterns, coefficients and times.
+using Times = std::array<std::optional<double>, 4>;
+using Prescribed = std::map<std::tuple<std::vector<double>, std::vector<std::int64_t>, std::vector<double>, Times>,
                             std::unordered_set<std::int64_t>>;
+
+// The patterns of supports that begin or end: 1 at a time, and gone by another.
+class Changes {
+public:
+    Changes(const Model& model, const Scene& scene) : model_(model), scene_(scene) {}
+    // Lets the constraints from `first` on begin and end as a support says.
+    void set(const Prescription& data, std::int64_t first) {
+        const std::int64_t count = static_cast<std::int64_t>(constraint_count()) - first;
+        delam_problem* problem = model_.problem.get();
+        if (count == 0) return;
+        if (data.begin)
+            call(model_.context.get(),
+                 delam_problem_begin_constraints(problem, first, count, data.begin->at, pattern("begin", *data.begin)),
+                 data.place);
+        if (data.end)
+            call(model_.context.get(),
+                 delam_problem_end_constraints(problem, first, count, data.end->at, pattern("end", *data.end)),
+                 data.place);
+    }
+    [[nodiscard]] std::size_t constraint_count() const {
+        std::int64_t rows = 0;
+        call(model_.context.get(),
+             delam_problem_constraints(model_.problem.get(), &rows, nullptr, nullptr, nullptr, nullptr, nullptr,
+                                       nullptr),
+             std::string("constraints"));
+        return static_cast<std::size_t>(rows);
+    }
+
+private:
+    std::int64_t pattern(const std::string& kind, const Change& change) {
+        const auto [at, made] = made_.try_emplace({kind, change.at, change.over.value_or(change.at)}, -1);
+        if (!made) return at->second;
+        std::string name = fmt::format("{}-{}", kind, made_.size());
+        const auto taken = [&](const PatternData& other) { return other.name == name; };
+        while (std::any_of(scene_.patterns.begin(), scene_.patterns.end(), taken)) name += "-";
+        const std::array times{change.at, change.over.value_or(change.at)}, values{1.0, 0.0};
+        call(model_.context.get(),
+             delam_problem_add_pattern(model_.problem.get(), name.c_str(), change.over ? 2 : 1, times.data(),
+                                       values.data(), &at->second),
+             std::string("patterns"));
+        return at->second;
+    }
+
+    const Model& model_;
+    const Scene& scene_;
+    std::map<std::tuple<std::string, double, double>, std::int64_t> made_;
+};
+
+Times times_of(const Prescription& data) {
+    Times times;
+    if (data.begin) times = {data.begin->at, data.begin->over, {}, {}};
+    if (data.end) times[2] = data.end->at, times[3] = data.end->over;
+    return times;
+}
 
 // before: what is prescribed at nodes already. Two entries may say the same of a node, as where sets overlap.
 void prescribe(Model& model, const Scene& scene, const Prescription& data, Prescribed& before) {
@@ -100,7 +159,7 @@ void prescribe(Model& model, const Scene& scene, const Prescription& data, Presc
     for (const std::vector<double>& direction : data.directions) {
         std::vector<std::int64_t> nodes = at.nodes;
         if (at.weights.empty()) {
-            auto& alike = before[{direction, patterns, coefficients}];
+            auto& alike = before[{direction, patterns, coefficients, times_of(data)}];
             std::erase_if(nodes, [&](std::int64_t node) { return alike.contains(node); });
             alike.insert(nodes.begin(), nodes.end());
         }
@@ -173,10 +232,16 @@ void fill(Model& model, const Scene& scene) {
     }
     set_gaps(model, scene);
     Prescribed prescribed;
-    for (const Prescription& data : scene.prescriptions) {
-        prescribe(model, scene, data, prescribed);
-        note_constraints(model, data.place);
-    }
+    Changes changes(model, scene);
+    // Supports that end come first: what holds the same nodes after them is known to follow.
+    for (const bool ends : {true, false})
+        for (const Prescription& data : scene.prescriptions) {
+            if (data.end.has_value() != ends) continue;
+            const std::size_t first = changes.constraint_count();
+            prescribe(model, scene, data, prescribed);
+            changes.set(data, static_cast<std::int64_t>(first));
+            note_constraints(model, data.place);
+        }
     for (const DeadForce& data : scene.forces) add_force(model, scene, data);
     add_constraints(model, scene);
     for (const EigenstrainData& data : scene.eigenstrains)

@@ -257,13 +257,13 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
         read_mesh_interfaces(root, scene);
     else
         read_interfaces(root, scene);
+    read_time(root, scene);
     read_patterns(root, scene);
     read_controls(root, scene);
     read_supports_and_loads(root, scene);
     read_forces(root, scene);
     read_eigenstrains(root, scene);
     read_constraints(root, scene);
-    read_time(root, scene);
     read_options(root, scene);
     read_output(root, scene);
     read_units(root, scene);

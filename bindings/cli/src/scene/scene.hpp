@@ -150,6 +150,12 @@ struct Term {
     double coefficient = 1;
 };
 
+// A time at which something begins or ends, an instant of the scene, and one by which what it changes is over.
+struct Change {
+    double at = 0;
+    std::optional<double> over;
+};
+
 // A support has no terms.
 struct Prescription {
     Selection where;
@@ -157,6 +163,7 @@ struct Prescription {
     std::vector<Term> terms;
     bool mean = false;  // of a set of faces: only the mean over them
     Place place;
+    std::optional<Change> begin{}, end{};  // nothing: it holds from the first instant, to the last
 };
 
 // A node without cells to which the displacements or forces of others refer.

@@ -151,6 +151,42 @@ void read_force(const Table& table, const Scene& scene, DeadForce& force) {
 
 }  // namespace
 
+// Returns the instant of the scene at this time, which must lie within its times.
+double instant_of(const Table& table, const char* key, const Scene& scene) {
+    const double time = table.number(key);
+    const std::vector<double>& times = scene.times;
+    const auto next = std::lower_bound(times.begin() + 1, times.end() - 1, time);
+    const double near = next - 1 != times.begin() && time - *(next - 1) < *next - time ? *(next - 1) : *next;
+    // Instants that steps have divided are not to the last digit what people write.
+    if (std::abs(time - near) <= 1e-9 * std::max(std::abs(near), times.back() - times.front())) return near;
+    if (!(time > times.front() && time < times.back()))
+        table.fail(key, fmt::format("{} is not allowed: an instant between {} and {}, the first and the last", time,
+                                    times.front(), times.back()));
+    table.fail(
+        key, fmt::format("{} is no instant of [time]: a load step must end there; the nearest does at {}", time, near));
+}
+
+// Reads `key` and the time by which its change is over; nothing: the scene does not give it.
+std::optional<Change> read_change(const Table& table, const char* key, const char* over, const Scene& scene) {
+    if (!table.has(key)) return {};
+    if (scene.times.size() < 3) table.fail(key, "there is one load step alone: nothing begins or ends within it");
+    Change change{instant_of(table, key, scene), {}};
+    if (table.has(over)) change.over = table.number(over);
+    if (change.over && !(*change.over > change.at))
+        table.fail(over, fmt::format("{} is not allowed: > {} ({})", *change.over, change.at, key));
+    return change;
+}
+
+// Reads when a support or a load holds.
+void read_times_of(const Table& table, const Scene& scene, Prescription& own) {
+    own.begin = read_change(table, "from", "reached", scene);
+    own.end = read_change(table, "until", "released", scene);
+    if (own.begin && own.end && !(own.end->at > own.begin->at))
+        table.fail("until", fmt::format("{} is not allowed: > {} (from)", own.end->at, own.begin->at));
+    if (own.end && !own.end->over)
+        own.end->over = *std::upper_bound(scene.times.begin(), scene.times.end(), own.end->at);
+}
+
 void read_patterns(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("patterns")) {
         PatternData pattern;
@@ -178,11 +214,13 @@ void read_supports_and_loads(const Table& root, Scene& scene) {
                                        {},
                                        scene.mesh && table.flag("mean"),
                                        table.place()});
+        read_times_of(table, scene, scene.prescriptions.back());
     }
     for (const Table& table : root.tables("loads")) {
         scene.prescriptions.push_back({read_selection(table, scene),
                                        read_directions(table, "component", scene.geometry), read_terms(table, scene),
                                        scene.mesh && table.flag("mean"), table.place()});
+        read_times_of(table, scene, scene.prescriptions.back());
     }
 }
 

@@ -155,6 +155,7 @@ struct LoadLine {
     double magnitude = 0;
     Numbers direction{};  // of TRVEC
     std::string amplitude{};
+    bool fixed = false;  // at the displacement at which the step begins
     bool rate = false;   // of TYPE=VELOCITY: what it adds in a unit of time
     bool named = false;  // ENCASTRE, ..: of its degrees of freedom, those that the node has
 };

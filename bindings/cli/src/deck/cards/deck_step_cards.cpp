@@ -149,7 +149,8 @@ void StepReader::take_boundary(const InpCard& card) {
         throw SceneFailure(card.place, "VELOCITY with AMPLITUDE is not imported: give displacements, its integral");
     if (rate)
         say_once(deck_.changed, "VELOCITY: displacements that grow evenly, by the velocity times the time of the step");
-    if (card.has("FIXED")) throw SceneFailure(card.place, "FIXED is not imported: give the displacement");
+    const bool fixed = card.has("FIXED");
+    if (fixed && !in_step_) throw SceneFailure(card.place, "FIXED is expected within a *STEP");
     for (const InpLine& line : card.lines) {
         if (line.fields.size() < 2)
             throw SceneFailure(line.place, "a node or set and a degree of freedom are expected");
@@ -157,6 +158,7 @@ void StepReader::take_boundary(const InpCard& card) {
         load.where = {&root_, line.fields[0], line.place};
         load.amplitude = card.parameter("AMPLITUDE");
         load.rate = rate;
+        load.fixed = fixed;
         for (const auto& [name, dofs] : named_supports)
             if (upper(line.fields[1]) == name) {
                 load.named = true;

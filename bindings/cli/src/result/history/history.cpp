@@ -84,7 +84,10 @@ History::History(const Model& model, const Scene& scene, const delam_solver* sol
         for (const char* key : of_cracks)
             if (knows(key)) add(key, key);
     const std::vector<Drives> drives = drives_of(scene);
-    if (std::find(drives.begin(), drives.end(), Drives::force) != drives.end()) add("load_potential", "load_potential");
+    const bool leaves = std::any_of(scene.prescriptions.begin(), scene.prescriptions.end(),
+                                    [](const Prescription& data) { return data.end.has_value(); });
+    if (leaves || std::find(drives.begin(), drives.end(), Drives::force) != drives.end())
+        add("load_potential", "load_potential");
     for (const std::string& key : scene.output.columns) {
         const std::optional<AverageColumn> average = average_column(key, scene);
         if (average) averages_[key] = *average;

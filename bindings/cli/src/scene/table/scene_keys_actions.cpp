@@ -87,6 +87,22 @@ void add_mean(KeyTable& table) {
         {Kind::needs, {"mean"}, {"set"}, {}, "is for a set of faces (a patch has it by itself)", Scenes::mesh});
 }
 
+// Supports and loads hold all the time unless these keys say otherwise.
+void add_times(KeyTable& table) {
+    table.rows.push_back(number_key("from")
+                             .otherwise("the first instant")
+                             .says("time from which on it holds, from where it finds the nodes"));
+    table.rows.push_back(
+        number_key("reached").says("time at which the nodes have come to the displacement given here; without it, that "
+                                   "counts from where they were"));
+    table.rows.push_back(number_key("until").otherwise("the last instant").says("time up to which it holds"));
+    table.rows.push_back(number_key("released")
+                             .otherwise("the instant after `until`")
+                             .says("time at which the force that it leaves behind has fallen to zero"));
+    table.rules.push_back({Kind::needs, {"reached"}, {"from"}, {}, "is for a support that begins: from is missing"});
+    table.rules.push_back({Kind::needs, {"released"}, {"until"}, {}, "is for a support that ends: until is missing"});
+}
+
 KeyTable pattern_table() {
     KeyTable table{"pattern", "a factor that follows a table of times", {}, {}};
     table.rows = {
@@ -102,6 +118,7 @@ KeyTable support_table() {
     add_places(table, any_place);
     add_direction(table, "fix");
     add_mean(table);
+    add_times(table);
     return table;
 }
 
@@ -111,6 +128,7 @@ KeyTable load_table() {
     add_direction(table, "component");
     add_terms(table, "is missing: a pattern is expected");
     add_mean(table);
+    add_times(table);
     return table;
 }
 
