@@ -240,8 +240,8 @@ private:
         if (std::holds_alternative<Patch>(where.shape)) out["marks"].back()["centre"] = centre_of(selected);
     }
 
-    // Returns the centre of the part of a boundary that a patch takes. Its ends lie between nodes, whose weights make the
-    // mean over this part.
+    // Returns the centre of the part of a boundary that a patch takes. Its ends lie between nodes, whose weights make
+    // the mean over this part.
     [[nodiscard]] std::array<double, 3> centre_of(const Selected& selected) const {
         std::array<double, 3> sum{};
         double whole = 0;
