@@ -53,8 +53,9 @@ class Trouble(Exception):
 
 
 class _Who:
-    """Who speaks: "delam: fit", "plot.py"."""
+    """Who speaks: "delam: fit", "plot.py"; and the lists that hear what is complained of, the last of which may keep it."""
     name = "delam"
+    hearers = []
 
 
 def say(text):
@@ -62,8 +63,23 @@ def say(text):
     print(printable(text), flush=True)
 
 
+@contextlib.contextmanager
+def overheard(keep=True):
+    """A list of what is complained of within. keep: it does not reach the terminal."""
+    heard = []
+    _Who.hearers.append((heard, keep))
+    try:
+        yield heard
+    finally:
+        _Who.hearers.pop()
+
+
 def complain(text):
     """One line on the standard error."""
+    for heard, keep in reversed(_Who.hearers):
+        heard.append(text)
+        if keep:
+            return
     text = printable(text).replace("\n", "\\x0a")
     if len(text) > LONGEST:
         text = text[:LONGEST] + "..."

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files of studies: whose they are says the program (delam own), and they are written whole or not at all."""
+import contextlib
 import os
 import subprocess
 
-from analyses import OUTPUT, Trouble, program
+from analyses import OUTPUT, Trouble, hold, program
 
 NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
 
@@ -52,3 +53,19 @@ def write_file(path, text):
     except OSError as error:
         os.unlink(name)
         raise Trouble(f"cannot write {path}: {error.strerror}", OUTPUT) from error
+
+
+@contextlib.contextmanager
+def owned(folder, names, others=()):
+    """The folder of a study while it writes these files there. others: files of another kind of study, which these replace."""
+    held = hold(folder)
+    try:
+        claim(folder, [*names, *others], False)
+        yield
+        for name in others:
+            with contextlib.suppress(FileNotFoundError):
+                os.unlink(os.path.join(folder, name))
+    finally:
+        with contextlib.suppress(OSError):
+            os.unlink(os.path.join(folder, "study.lock"))
+        held.close()

@@ -5,6 +5,7 @@ import itertools
 import json
 import os
 import random
+import re
 import sys
 
 import numpy as np
@@ -47,6 +48,14 @@ told("0.12 m are drawn in mm", b"<!-- extent 120" in in_mm or b"<!-- extent 0.12
 told("dimension lines have the lengths of the scene: notch, span, thickness", all(
     f"<!-- {text} -->".encode() in in_mm for text in ("120 mm", "30", "60", "3")))
 told("without units they are numbers", b"<!-- 0.12 -->" in without and b"<!-- 0.03 -->" in picture)
+# A patch has its place in the scene: the nodes of the cells that it touches lie elsewhere.
+specimen = "--width 25mm --arm 2mm --notch 30mm --half-span 50mm --E1 140GPa --E2 10GPa --G12 5GPa --GIIc 750J/m2"
+_, error, sheet_drawn = drawn(start("new", "enf", *specimen.split())[1])
+lengths = [text for text in re.findall(rb"<!-- ([0-9.]+)(?: mm)? -->", sheet_drawn)]
+told("dimensions are those of the sheet: notch, rest of the half span, half span", lengths[1:4] == [b"30", b"20", b"50"], f"{lengths} {error}")
+between = changed('point = [0.120, 0.0]\n', 'patch = { centre = [0.1113, 0.0], length = 0.002, face = "-y" }\n')
+_, error, between = drawn(between)
+told("a roller between nodes has its place", b"<!-- 0.0513 -->" in between and b"<!-- 0.0087 -->" in between, error)
 told("PNG", drawn(SCENE, "scene.png")[2].startswith(b"\x89PNG"))
 
 # ---- an equation of two parallel displacements is a lever, whose load has its place by their factors

@@ -52,9 +52,9 @@ struct Study {
     std::vector<std::string> data, parameters, columns, specimen;  // of a fit
     std::string x = "load", y = "reaction", weights = "curve", width, loops = "cut", slack = "find", compliance;
     double scale = 1.0, x_scale = 1.0, confidence = 0.95, held = 0.1;
-    std::string test, crack, marks, beside;  // of an evaluation
+    std::string test, crack, marks, beside, sheets;  // of an evaluation
     std::map<std::string, std::string> sheet;
-    std::vector<std::string> units, calibration;
+    std::vector<std::string> units, calibration, leave_out;
 };
 int study(const Study& study);
 // Runs analyses for a study, one after another in this process: each line of standard input names one, and its exit

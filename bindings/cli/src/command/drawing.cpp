@@ -231,10 +231,26 @@ private:
             out["remarks"].push_back(text);
             return;
         }
+        const Selected selected = select(model_.context.get(), model_.mesh.get(), scene_, where, faces);
         json points = json::array();
-        for (const std::int64_t node : select(model_.context.get(), model_.mesh.get(), scene_, where, faces).nodes)
-            points.push_back(point(node));
+        for (const std::int64_t node : selected.nodes) points.push_back(point(node));
         out["marks"].push_back({{"kind", kind}, {"text", text}, {"points", points}, {"directions", directions}});
+        if (std::holds_alternative<Patch>(where.shape)) out["marks"].back()["centre"] = centre_of(selected);
+    }
+
+    // Returns the centre of the part of a boundary that a patch takes. Its ends lie between nodes, whose weights make
+    // the mean over this part.
+    [[nodiscard]] std::array<double, 3> centre_of(const Selected& selected) const {
+        std::array<double, 3> sum{};
+        double whole = 0;
+        for (std::size_t i = 0; i < selected.nodes.size(); ++i) {
+            const double weight = selected.weights[i];
+            whole += weight;
+            for (std::size_t a = 0; a < 3; ++a)
+                sum[a] += weight * mesh_.points[static_cast<std::size_t>(3 * selected.nodes[i]) + a];
+        }
+        for (double& x : sum) x /= whole;
+        return sum;
     }
 
     void add_prescriptions(json& out) {

@@ -208,6 +208,12 @@ void add_specimen(CLI::App& command, Study& study) {
         ->type_name("NAME");
 }
 
+void add_confidence(CLI::App& command, Study& study) {
+    command.add_option("--confidence", study.confidence, "of the intervals (default 0.95)")
+        ->type_name("LEVEL")
+        ->check(number_within(0.01, 0.9999, "a number from 0.01 to 0.9999"));
+}
+
 void add_fit(CLI::App& app, Arguments& into, Commands& of) {
     Study& study = into.study;
     of.fit = app.add_subcommand("fit", "find numbers of the scene, above all of its laws, from measured load curves");
@@ -264,9 +270,7 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
             "they are")
         ->type_name("HOW")
         ->check(CLI::IsMember(of.choices["weights"] = {"curve", "equal", "relative"}));
-    of.fit->add_option("--confidence", study.confidence, "of the intervals (default 0.95)")
-        ->type_name("LEVEL")
-        ->check(number_within(0.01, 0.9999, "a number from 0.01 to 0.9999"));
+    add_confidence(*of.fit, study);
     of.fit
         ->add_option("--held", study.held,
                      "by which part numbers of laws and elastic constants that are not among the parameters are moved "
@@ -287,10 +291,11 @@ void add_evaluate(CLI::App& app, Arguments& into, Commands& of) {
         ->type_name("TEST")
         ->required()
         ->check(CLI::IsMember(of.choices["test"] = {"dcb", "enf", "mmb"}));
-    of.evaluate->add_option("file", study.data, "a file with displacement, load and, if there is one, crack length")
+    of.evaluate
+        ->add_option("file", study.data,
+                     "a file with displacement, load and, if there is one, crack length; several are a series")
         ->type_name(file_value)
-        ->required()
-        ->expected(1);
+        ->required();
     struct Entry {
         const char *key, *meaning;
     };
@@ -322,17 +327,31 @@ void add_evaluate(CLI::App& app, Arguments& into, Commands& of) {
         ->add_option("--marks", study.marks,
                      "a sheet of crack lengths apart, with the time or the displacement of each beside it")
         ->type_name(file_value);
-    add_specimen(*of.evaluate, study);
+    add_several(
+        *of.evaluate, "--specimen", study.specimen,
+        "which test of a file that has several: its name, or its number from 1 on; all, or several of them, are a "
+        "series")
+        ->type_name("NAME");
+    of.evaluate
+        ->add_option("--sheets", study.sheets,
+                     "a table with a row for each specimen of a series: \"Specimen\", and options that differ, e.g. "
+                     "\"width (mm)\"")
+        ->type_name(file_value);
+    add_several(*of.evaluate, "--leave-out", study.leave_out,
+                "a specimen that counts for no mean of the series; its row stays, and it is named")
+        ->type_name("NAME");
+    add_confidence(*of.evaluate, study);
     add_several(
         *of.evaluate, "--calibration", study.calibration,
         "of enf: a file that was measured at another length of the crack, e.g. 20mm=a20.csv; given twice or more")
         ->type_name("LENGTH=FILE");
     of.evaluate->add_option("--beside", study.beside, "folder of a fit, whose toughness stands beside")
         ->type_name(folder_value);
-    of.evaluate->add_option("--out,-o", into.folder, "folder for evaluate.json, r-curve.csv and a picture")
+    of.evaluate->add_option("--out,-o", into.folder, "folder for tables and a picture")
         ->type_name(folder_value)
         ->required();
-    of.evaluate->add_flag("--replace", into.replace, "replace the evaluation of another test in the folder");
+    of.evaluate->add_flag("--replace", into.replace,
+                          "replace the evaluation of another test, or of another series, in the folder");
     of.evaluate->footer(footer);
 }
 

@@ -67,6 +67,8 @@ int study(const Study& of) {
                                {"specimen", of.specimen},
                                {"calibration", of.calibration},
                                {"beside", of.beside},
+                               {"sheets", of.sheets},
+                               {"leave_out", of.leave_out},
                                {"confidence", of.confidence},
                                {"held", of.held}};
     std::string words;

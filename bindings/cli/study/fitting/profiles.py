@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from command import loading
 from fitting.misfit import NOTHING
+from measured.chance import correlated, student
 
 TRUSTED = 4.0  # by which factor the misfit at the ends of an interval may differ from that which the derivatives predict
 # Where curves have teeth, misfits are compared this far away, in logarithms: closer, those of the teeth of the DCB
@@ -23,25 +23,6 @@ class Interval:
     below: float
     above: float
     trusted: bool
-
-
-def student(level, freedom):
-    with loading():
-        from scipy.stats import t  # here, for it loads for a second
-    return float(t.ppf(0.5 + 0.5 * level, max(freedom, 1)))
-
-
-def correlated(residual, starts):
-    """By how much the variance of a mean of residuals is larger than that of independent ones: (1 + r) / (1 - r) for a
-    correlation r of neighbours (Bayley, Hammersley, J. R. Stat. Soc. Suppl. 8, 1946), 1 where r may be chance. starts:
-    where each curve begins."""
-    pairs = np.ones(max(len(residual) - 1, 0), dtype=bool)
-    pairs[[k - 1 for k in starts if k > 0]] = False
-    square = residual @ residual
-    if not square > 0 or not pairs.any():
-        return 1.0
-    r = min(0.95, np.sum((residual[:-1] * residual[1:])[pairs]) / square)
-    return (1 + r) / (1 - r) if r > 2 / np.sqrt(len(residual)) else 1.0
 
 
 def covariance(residual, jacobian, starts):

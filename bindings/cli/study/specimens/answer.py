@@ -2,6 +2,8 @@
 """What a method says of a test: the toughness along the growth of the crack, at any point of the curve, and its numbers."""
 import numpy as np
 
+from scatter.spread import Nothing
+
 # Numbers of methods: unit in SI, the unit in which people read them, and its size.
 UNITS = {"offset": ("m", "mm", 1e-3), "n": ("", "", 1.0), "A1": ("(N/m)^(1/3)", "(N/mm)^(1/3)", 10.0),
          "A": ("m/N", "mm/N", 1e-3), "m": ("1/(N m2)", "1/(N mm2)", 1e6), "chi": ("", "", 1.0),
@@ -10,11 +12,13 @@ UNITS = {"offset": ("m", "mm", 1e-3), "n": ("", "", 1.0), "A1": ("(N/m)^(1/3)", 
 
 class Answer:
     """where, crack, rate: arrays in SI, the R-curve; at_any(displacement, load, crack): the rate; numbers: by the names of
-    UNITS; grown: places of the marks whose crack is longer than the notch."""
+    UNITS; grown: places of the marks whose crack is longer than the notch; loads: those of the R-curve, where the mean of marks
+    depends on the curve; spread: how much of the toughness is chance (scatter/spread.py)."""
 
-    def __init__(self, name, where, crack, rate, at_any, numbers, grown=()):
+    def __init__(self, name, where, crack, rate, at_any, numbers, grown=(), spread=None, loads=None):
         self.name, self.where, self.crack, self.rate = name, where, crack, rate
-        self._at_any, self.numbers, self._grown = at_any, numbers, grown
+        self._at_any, self.numbers, self._grown, self._loads = at_any, numbers, grown, loads
+        self.spread = spread or Nothing()
 
     def at(self, point, zero):
         """The toughness at a point of the curve whose initial line begins at the displacement zero."""
@@ -26,6 +30,10 @@ class Answer:
             return None
         rates = self.rate[self._grown]
         return float(np.mean(rates)), float(np.std(rates, ddof=1)), len(rates)
+
+    def mean_over(self, other):
+        """The mean that this method has at the marks of the propagation of another answer."""
+        return float(np.mean(self._at_any(other.where, other._loads, other.crack)[other._grown]))
 
     def units(self):
         """Of the numbers as they are kept."""

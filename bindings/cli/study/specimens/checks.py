@@ -40,29 +40,24 @@ def require_lengths(curve, sheet, given):
                       "line of load are expected, no growths: add the notch to them")
 
 
-def marked(curve, points, sheet, given, modulus_at):
-    """Displacement, load without noise and crack length of the marks; refused where the compliance is still that of the
-    notch, and told where it is that of another crack. modulus_at: the bending modulus of a compliance and a sheet."""
-    marks, path = curve.marks.copy(), given.marks or curve.path
+def require_marks(marks, curve, points, sheet, given, modulus_at):
+    """Refuses marks where the compliance is still that of the notch, and tells where it is that of another crack. modulus_at:
+    the bending modulus of a compliance and a sheet."""
+    path = given.marks or curve.path
     if not len(marks):
-        return marks
+        return
     longest = marks[np.argmax(marks[:, 2])]
     grown, softer = longest[2] / sheet["notch"] - 1, (longest[0] - points.zero) / longest[1] / points.compliance - 1
     if grown > SURELY_GROWN and not softer > LEAST_SOFTER * grown:
         raise Trouble(f"{path}: the crack of {1e3 * longest[2]:g} mm is marked at a displacement of {1e3 * longest[0]:.4g} "
                       f"mm, where the compliance is still that of the notch of {given.sheet['notch']}: is the time or the displacement of "
                       "the marks in another unit, or do they belong to another test?")
-    # A mark in an unloading lies off the curve, and keeps its load.
-    load = np.interp(marks[:, 0], points.displacement, points.load)
-    near = np.abs(load - marks[:, 1]) <= 4 * points.noise
-    marks[near, 1] = load[near]
     d, p, a = marks[0]
     own = _modulus_matches(modulus_at, (d - points.zero) / p, points.compliance, sheet)
     if abs(a - own) > FIRST_OFF * sheet["notch"]:
         complain(f"warning: {path}: the first crack is {1e3 * a:.4g} mm long, and by the compliance there {1e3 * own:.4g} mm, from --notch "
                  f"{given.sheet['notch']} on: are both measured from the line of load, is --notch that of the crack before the test, "
                  "and were time or displacement of the marks read at the same moment?")
-    return marks
 
 
 def said_of_marks(marks, notch):

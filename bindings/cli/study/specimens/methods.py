@@ -2,15 +2,17 @@
 """Energy release rates of the standards, from load, displacement and crack length. All in SI; h is one arm, b the
 width, L half of the span, c the lever.
 
-A method that is calibrated returns the rate as a function of displacement, load and crack length, and its numbers."""
+A method that is calibrated returns the rate as a function of displacement, load and crack length, its numbers, and how far
+each length lies off its line: what was misread, if all else is right."""
 import numpy as np
 
 
-def beam_offset(crack, compliance):
+def beam_offset(crack, compliance, sheet):
     """By how much the crack of a clamped arm is longer: where the line of the cube roots of the compliances meets the
-    axis (ISO 15024; the modified beam theory of ASTM D5528). Not negative."""
+    axis (ISO 15024; the modified beam theory of ASTM D5528). Not negative, unless its chance is asked for (OfMarks). And
+    how far each length is off this line."""
     slope, at_zero = np.polyfit(crack, np.cbrt(compliance), 1)
-    return max(0.0, float(at_zero / slope))
+    return max(sheet.get("least offset", 0.0), float(at_zero / slope)), crack - (np.cbrt(compliance) - at_zero) / slope
 
 
 def large_displacement(displacement, crack):
@@ -33,30 +35,33 @@ def corrected_beam_theory(displacement, load, crack, sheet):
     def stiffer(d, a):
         return block_factor(d, a, pin, half_block) if blocks else np.ones_like(a)
 
-    offset = beam_offset(crack, displacement / load / stiffer(displacement, crack))
+    offset, misread = beam_offset(crack, displacement / load / stiffer(displacement, crack), sheet)
 
     def rate(d, p, a):
         f = large_displacement(d, a) - 1.5 * d * pin / a ** 2
         return 1.5 * p * d / (sheet["width"] * (a + offset)) * f / stiffer(d, a)
-    return rate, {"offset": offset}
+    return rate, {"offset": offset}, misread
 
 
 def modified_beam_theory(displacement, load, crack, sheet):
     """MBT of ASTM D5528: 3 P d / 2 b (a + offset)."""
-    offset = beam_offset(crack, displacement / load)
-    return lambda d, p, a: 1.5 * p * d / (sheet["width"] * (a + offset)), {"offset": offset}
+    offset, misread = beam_offset(crack, displacement / load, sheet)
+    return lambda d, p, a: 1.5 * p * d / (sheet["width"] * (a + offset)), {"offset": offset}, misread
 
 
 def compliance_calibration(displacement, load, crack, sheet):
     """CC of ASTM D5528 (Berry): n P d / 2 b a, n the slope of log C over log a."""
-    n = float(np.polyfit(np.log(crack), np.log(displacement / load), 1)[0])
-    return lambda d, p, a: 0.5 * n * p * d / (sheet["width"] * a), {"n": n}
+    n, at_one = np.polyfit(np.log(crack), np.log(displacement / load), 1)
+    misread = crack - np.exp((np.log(displacement / load) - at_one) / n)
+    return lambda d, p, a: 0.5 * n * p * d / (sheet["width"] * a), {"n": float(n)}, misread
 
 
 def modified_compliance_calibration(displacement, load, crack, sheet):
     """MCC of ASTM D5528: 3 P^2 C^(2/3) / 2 A1 b (2 h), A1 the slope of a / 2h over the cube root of C."""
-    a1 = float(np.polyfit(np.cbrt(displacement / load), crack / (2 * sheet["arm"]), 1)[0])
-    return lambda d, p, a: 1.5 * p ** 2 * np.cbrt(d / p) ** 2 / (a1 * sheet["width"] * 2 * sheet["arm"]), {"A1": a1}
+    roots, whole = np.cbrt(displacement / load), 2 * sheet["arm"]
+    a1, at_zero = np.polyfit(roots, crack / whole, 1)
+    return (lambda d, p, a: 1.5 * p ** 2 * np.cbrt(d / p) ** 2 / (a1 * sheet["width"] * whole), {"A1": float(a1)},
+            crack - whole * (a1 * roots + at_zero))
 
 
 def chi(e1, e2, g13):
@@ -131,9 +136,13 @@ def enf_effective(first, sheet):
 
 
 def enf_calibration(cracks, compliances):
-    """C = A + m a^3 of the compliance calibration of ASTM D7905: A, m."""
-    m, a = np.polyfit(np.asarray(cracks) ** 3, compliances, 1)
-    return float(a), float(m)
+    """C = A + m a^3 of the compliance calibration of ASTM D7905: A, m, and the standard error of m over m, from how far the
+    compliances are off the line."""
+    cubes = np.asarray(cracks) ** 3
+    m, a = np.polyfit(cubes, compliances, 1)
+    off = compliances - (a + m * cubes)
+    error = np.sqrt(off @ off / max(len(cubes) - 2, 1) / np.sum((cubes - np.mean(cubes)) ** 2))
+    return float(a), float(m), float(error / abs(m))
 
 
 def enf_calibrated(load, m, sheet):

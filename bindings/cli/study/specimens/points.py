@@ -38,7 +38,7 @@ class Points:
     def __init__(self, displacement, load, path):
         self.displacement = displacement
         self.load, self.error, least = smoothed(displacement, load)
-        self.noise = noise_of(displacement, load)
+        self.noise, self.first = noise_of(displacement, load), 0
         # Two standard errors lower, so that a lucky short line is not taken for the largest load.
         self.top = int(np.argmax(least - 2 * self.error))
         chosen = self._straight(path)
@@ -81,19 +81,34 @@ class Points:
                 replace(self._point("5 %", self.top if offset is None else offset), after_largest_load=offset is None),
                 self._point("max", self.top)]
 
-    def add_visual(self, mark):
-        """The first mark of a crack that has grown: displacement, load, length."""
+    def without_noise(self, marks):
+        """Marks with the loads of the curve without noise. One in an unloading lies off the curve, and keeps its load."""
+        marks = marks.copy()
+        if len(marks):
+            load = np.interp(marks[:, 0], self.displacement, self.load)
+            near = np.abs(load - marks[:, 1]) <= 4 * self.noise
+            marks[near, 1] = load[near]
+        return marks
+
+    def add_visual(self, marks, first):
+        """The first mark of a crack that has grown, which of the marks: displacement, load, length."""
+        mark, self.first = marks[first], first
         error = float(np.interp(mark[0], self.displacement, self.error))
         self.points.insert(0, Point("visual", -1, float(mark[0]), float(mark[1]), error, float(mark[2])))
 
     def place_cracks(self, notch, marks):
         """The crack at each point: that of the notch until the curve leaves its initial line, then between marks (ISO
         15024 evaluates NL and 5 % at the notch). Without marks: the notch."""
+        self._notch = notch
+        for point, crack in zip(self.points, self.cracks_with(marks)):
+            point.crack = crack
+
+    def cracks_with(self, marks):
+        """The cracks at the points with other lengths at the marks."""
         start = next(p.displacement for p in self.points if p.name == "NL")
         later = marks[marks[:, 0] > start] if len(marks) else np.zeros((0, 3))
-        for point in self.points:
-            if not point.crack == point.crack:
-                point.crack = float(np.interp(point.displacement, [start, *later[:, 0]], [notch, *later[:, 2]]))
+        return [float(marks[self.first, 2]) if point.name == "visual" else
+                float(np.interp(point.displacement, [start, *later[:, 0]], [self._notch, *later[:, 2]])) for point in self.points]
 
     def along(self, name, crack, rate):
         """The answer of a method that needs no crack length, from where the curve leaves its initial line."""

@@ -99,13 +99,14 @@ def layers_of(scene, points):
 
 
 def stations(scene, points):
-    """Returns the places between which lengths are measured: the ends, narrow supports and loads, ends of notches."""
+    """Returns the places between which lengths are measured: the ends, narrow supports and loads, ends of notches. A
+    patch of the scene has its centre, which may lie between nodes, and other supports the middle of their nodes."""
     low, high = points[:, 0].min(), points[:, 0].max()
     found = [low, high]
     for mark in scene["marks"]:
         x = np.asarray(mark["points"], float).reshape(-1, 3)[:, 0]
         if len(x) and np.ptp(x) < NARROW * (high - low):
-            found.append(0.5 * (x.min() + x.max()))
+            found.append(mark["centre"][0] if "centre" in mark else 0.5 * (x.min() + x.max()))
     for one in scene["interfaces"]:
         offsets, nodes = np.asarray(one["offsets"]), np.asarray(one["faces"], int)
         open_faces = np.repeat(np.asarray(one["adhesion"], float) <= 0, np.diff(offsets))
@@ -142,8 +143,7 @@ def draw_dimensions(figure, scene, points, layers, box, scale, unit):
     low = points[:, :2].min(0)
 
     def number(length):
-        # Three digits: narrow supports have a place up to a cell.
-        return f"{factor * length:.3g}" if factor * length < 999.5 else f"{factor * length:.0f}"
+        return f"{factor * length:.4g}" if factor * length < 9999.5 else f"{factor * length:.0f}"
 
     def x_of(x):
         return box[0] + scale[0] * (x - low[0])
