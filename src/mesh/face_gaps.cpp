@@ -85,8 +85,8 @@ std::vector<double> face_gaps(const Mesh& mesh, const InterfaceGeometry& interfa
         const auto found = arcs.find(node);
         return found == arcs.end() ? 0.0 : found->second;
     };
-    // The map has, by tied node, the largest arc at the nodes to which it is tied. Where it stands for a mid-side node, it
-    // counts with the sum of the coefficients.
+    // The map has, by tied node, the largest arc at the nodes to which it is tied. Where it stands for a mid-side node,
+    // it counts with the sum of the coefficients.
     std::map<std::int64_t, double> tied;
     for (const NodeTie& tie : mesh.ties()) {
         double highest = 0.0, size = 0.0;

@@ -39,7 +39,7 @@ public:
     // A body without cells, whose stiffness the host gives.
     void add_host_body(std::int32_t label, std::span<const std::int64_t> nodes);
     // Appends an interface that pairing/interfaces.hpp has made, with tied nodes and their places; returns its index.
-    // originals: of tied nodes that stand for others (pairing/mid_sides.hpp), -1: itself; empty: all themselves.
+    // originals: of tied nodes that stand for others (rule/mid_sides.hpp), -1: itself; empty: all themselves.
     std::int64_t append(InterfaceGeometry interface, std::vector<NodeTie> ties = {},
                         std::span<const double> places = {}, std::span<const std::int64_t> originals = {});
     // Appends all of them or, when memory ends, none.

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Interfaces of all cell types on meshes of very few faces: a uniform opening is exact, the energy of an opening that
-// varies over the faces is that of the rule of the pairs in closed form, and cracks of quadratic cells grow at the loads
-// of fine linear ones.
+// varies over the faces is that of the rule of the pairs in closed form, and cracks of quadratic cells grow at the
+// loads of fine linear ones.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
 
+#include "acceptance.hpp"
 #include "support.hpp"
 
 namespace {
@@ -22,19 +23,12 @@ struct Shape {
     // Pairs store more energy in a linear opening of n x n faces than the continuum, by this over n^2.
     double excess;
 };
-constexpr Shape shapes[] = {{2, DELAM_TRI3, "tri3", 0.5},
-                            {2, DELAM_QUAD4, "quad4", 0.5},
-                            {2, DELAM_TRI6, "tri6", 0.0},
-                            {2, DELAM_QUAD8, "quad8", 0.0},
-                            {2, DELAM_QUAD9, "quad9", 0.0},
-                            {3, DELAM_TET4, "tet4", 0.5},
-                            {3, DELAM_HEX8, "hex8", 0.5},
-                            {3, DELAM_WEDGE6, "wedge6", 0.5},
-                            {3, DELAM_PYRAMID5, "pyramid5", 0.5},
-                            {3, DELAM_TET10, "tet10", 1.0 / 10},
-                            {3, DELAM_HEX20, "hex20", 1.0 / 6},
-                            {3, DELAM_WEDGE15, "wedge15", 1.0 / 10},
-                            {3, DELAM_HEX27, "hex27", 0.0}};
+constexpr Shape shapes[] = {
+    {2, DELAM_TRI3, "tri3", 0.5},        {2, DELAM_QUAD4, "quad4", 0.5},     {2, DELAM_TRI6, "tri6", 0.0},
+    {2, DELAM_QUAD8, "quad8", 0.0},      {2, DELAM_QUAD9, "quad9", 0.0},     {3, DELAM_TET4, "tet4", 0.5},
+    {3, DELAM_HEX8, "hex8", 0.5},        {3, DELAM_WEDGE6, "wedge6", 0.5},   {3, DELAM_PYRAMID5, "pyramid5", 0.5},
+    {3, DELAM_TET10, "tet10", 1.0 / 10}, {3, DELAM_HEX20, "hex20", 1.0 / 6}, {3, DELAM_WEDGE15, "wedge15", 1.0 / 10},
+    {3, DELAM_HEX27, "hex27", 0.0}};
 constexpr int shape_count = static_cast<int>(std::size(shapes));
 constexpr double stiffness = 1e12;
 
@@ -170,10 +164,11 @@ double peak_load(std::int32_t cell, double h, bool flexure) {
 LOOP_TEST(peaks_are_those_of_fine_linear_cells, 0, 2) {
     const bool flexure = loop == 1;
     const double fine = peak_load(DELAM_QUAD4, 0.25e-3, flexure);
-    for (const auto& [cell, name] : {std::pair{DELAM_TET10, "tet10"}, {DELAM_HEX20, "hex20"}, {DELAM_WEDGE15, "wedge15"}}) {
+    for (const auto& [cell, name] :
+         {std::pair{DELAM_TET10, "tet10"}, {DELAM_HEX20, "hex20"}, {DELAM_WEDGE15, "wedge15"}}) {
         const double coarse = peak_load(cell, 1e-3, flexure);
-        std::printf("%s, %s of 1 mm: peak %.4f of that of quad4 of 0.25 mm\n", flexure ? "flexure" : "cantilevers", name,
-                    coarse / fine);
+        std::printf("%s, %s of 1 mm: peak %.4f of that of quad4 of 0.25 mm\n", flexure ? "flexure" : "cantilevers",
+                    name, coarse / fine);
         cases::expect_near(coarse, fine, 0.02, fine, std::string(name) + ": peak");
     }
 }

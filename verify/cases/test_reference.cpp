@@ -76,7 +76,9 @@ LOOP_TEST(tension_at_any_stiffness, 0, 9) {
                 cases::expect_near(state.jump[i], exact / k, 1e-12, t / k, where + "jump");
             }
             const double force = t * area(cells[loop]);
-            cases::expect_near(state.pattern[0], force, 1e-12, force, where + "reaction");
+            // The nodal forces of 20-node bricks have both signs: their sum has more rounding.
+            const double rounding = cells[loop] == DELAM_HEX20 ? 2e-12 : 1e-12;
+            cases::expect_near(state.pattern[0], force, rounding, force, where + "reaction");
             const double work = 0.5 * force * w;
             const double bulk = work * (t / w) * height / young;
             cases::expect_near(state.stored_bulk, bulk, 1e-12, work, where + "stored in the bulk");

@@ -14,7 +14,7 @@
 #include "mesh/faces.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/pairing/interfaces.hpp"
-#include "mesh/pairing/mid_sides.hpp"
+#include "mesh/rule/mid_sides.hpp"
 #include "mesh/shape.hpp"
 #include "meshes.hpp"
 

@@ -12,8 +12,8 @@
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 #include "mesh/pairing/interfaces.hpp"
-#include "mesh/pairing/mid_sides.hpp"
-#include "mesh/pairing/nodal_rule.hpp"
+#include "mesh/rule/mid_sides.hpp"
+#include "mesh/rule/nodal_rule.hpp"
 #include "mesh/points.hpp"
 
 namespace delam {
@@ -142,8 +142,8 @@ struct PairAreas {
     std::vector<Point> vector;
 };
 
-// Says which values the pairs at mid-side nodes compare: those at the nodes, or values with positive weights that give a
-// uniform traction its nodal forces (mid_sides.hpp).
+// Says which values the pairs at mid-side nodes compare: those at the nodes, or values with positive weights that give
+// a uniform traction its nodal forces (mid_sides.hpp).
 enum class MidSideValues { nodal, consistent };
 
 // The area vectors of pairs, and those at mid-side nodes that compare other values than these.

@@ -9,7 +9,7 @@
 
 #include "mesh/faces.hpp"
 #include "mesh/mesh.hpp"
-#include "mesh/pairing/mid_sides.hpp"
+#include "mesh/rule/mid_sides.hpp"
 
 namespace delam {
 

@@ -16,7 +16,7 @@
 #include "mesh/mesh.hpp"
 #include "mesh/pairing/assemble_interface.hpp"
 #include "mesh/pairing/interfaces.hpp"
-#include "mesh/pairing/mid_sides.hpp"
+#include "mesh/rule/mid_sides.hpp"
 #include "mesh/pairing/overlap.hpp"
 #include "mesh/points.hpp"
 

@@ -18,7 +18,7 @@
 #include "mesh/faces.hpp"
 #include "mesh/pairing/assemble_interface.hpp"
 #include "mesh/pairing/interfaces.hpp"
-#include "mesh/pairing/mid_sides.hpp"
+#include "mesh/rule/mid_sides.hpp"
 #include "mesh/pairing/mortar_interface.hpp"
 #include "mesh/points.hpp"
 

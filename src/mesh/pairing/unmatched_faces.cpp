@@ -11,7 +11,7 @@
 #include "delam/delam.h"
 #include "mesh/pairing/assemble_interface.hpp"
 #include "mesh/pairing/interfaces.hpp"
-#include "mesh/pairing/mid_sides.hpp"
+#include "mesh/rule/mid_sides.hpp"
 #include "mesh/points.hpp"
 
 namespace delam {

@@ -3,7 +3,7 @@
 // Rules whose points are the nodes keep the stiffness of an interface diagonal. With the integrals of the shape
 // functions as weights, the corners of a 6-node triangle would have weight zero and those of an 8-node face a negative
 // weight: interfaces between such faces have other pairs (mid_sides.hpp), and obstacles the weights of linear pieces.
-#include "mesh/pairing/nodal_rule.hpp"
+#include "mesh/rule/nodal_rule.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -23,7 +23,7 @@
 
 #include "mesh/interface_geometry.hpp"
 #include "mesh/mesh.hpp"
-#include "mesh/pairing/nodal_rule.hpp"
+#include "mesh/rule/nodal_rule.hpp"
 
 namespace delam {
 
