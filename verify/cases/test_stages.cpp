@@ -272,7 +272,8 @@ LOOP_TEST(support_that_does_nothing, 0, 14) {
             own[i + 1].push_back(u - before[i]);
         }
     }
-    cases::expect(alone.value("debonded_length") > 0.002, "the crack grows, or nothing was tested");
+    const double width = d == 2 ? 1.0 : 0.004;
+    cases::expect(alone.value("debonded_length") > 0.002 * width, "the crack grows, or nothing was tested");
     Cantilevers gripped(d, way);
     gripped.hold(own, !counts_from_there);
     choose(gripped.scene);

@@ -64,6 +64,8 @@ void SparseOperator::solve(const Springs& springs, std::span<const double> theta
         loaded = loaded || (theta[p] != 0.0 && any_of(bodies_->variables().lift[p]));
     if (!loaded) {
         rest(springs, theta, response);
+        // Supports may carry dead forces all the same.
+        find_energies(theta, std::vector<double>(system.rows().equations().size(), 0.0), response);
         return;
     }
     if (!solver_.set(std::move(couplings), held))

@@ -155,8 +155,10 @@ void read_force(const Table& table, const Scene& scene, DeadForce& force) {
 double instant_of(const Table& table, const char* key, const Scene& scene) {
     const double time = table.number(key);
     const std::vector<double>& times = scene.times;
-    const auto next = std::lower_bound(times.begin() + 1, times.end() - 1, time);
-    const double near = next - 1 != times.begin() && time - *(next - 1) < *next - time ? *(next - 1) : *next;
+    const auto first = times.begin() + 1, last = times.end() - 1;
+    auto next = std::lower_bound(first, last, time);
+    if (next == last || (next != first && time - *(next - 1) < *next - time)) --next;
+    const double near = *next;
     // Instants that steps have divided are not to the last digit what people write.
     if (std::abs(time - near) <= 1e-9 * std::max(std::abs(near), times.back() - times.front())) return near;
     if (!(time > times.front() && time < times.back()))
