@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "command/program.hpp"
+#include "command/line/program.hpp"
 #include "file/descriptors.hpp"
 
 int main(int argc, char** argv) {

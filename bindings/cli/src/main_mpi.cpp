@@ -14,7 +14,7 @@
 
 #include <dlfcn.h>
 
-#include "command/program.hpp"
+#include "command/line/program.hpp"
 #include "delam/petsc.h"
 #include "file/descriptors.hpp"
 #include "model/model.hpp"

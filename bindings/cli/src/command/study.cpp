@@ -15,7 +15,7 @@
 
 #include "command/commands.hpp"
 #include "command/interrupt.hpp"
-#include "command/program.hpp"
+#include "command/reported.hpp"
 #include "file/data_file.hpp"
 #include "text/error.hpp"
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line: reads it, calls the subcommand, and turns what goes wrong into words and an exit code.
+// Turns what a command throws into words and an exit code.
 #pragma once
 
-#include "command/commands.hpp"
+#include <functional>
 
 namespace cli {
 
-int program(int argc, char** argv, const Caller& caller);
 // Returns the exit code of a command; what it throws is said in one line.
 int reported(const std::function<int()>& command);
 
