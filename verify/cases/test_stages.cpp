@@ -152,6 +152,8 @@ LOOP_TEST(released_bar, 0, 6) {
         cases::expect_near(solver.value("stored_bulk"), share * share, tight, 1.0, "stored energy");
         cases::expect_near(sum_of(solver, grip), 0.0, tight, 1.0, "no support any more");
         cases::expect_near(solver.value("defect"), 0.0, tight, 1.0, "balance");
+        // Nothing dissipates: the work is what is stored, and the potential -f.u of what is left of the force.
+        cases::expect_near(solver.value("work"), share * share - 2.0 * share * share, tight, 1.0, "work");
     }
     go(solver, 3.0);
     cases::expect_near(motion(solver, bar), 0.0, tight, 2.0, "pushed back from where it was");
@@ -249,7 +251,7 @@ const std::vector<double>& instants() {
 LOOP_TEST(support_that_does_nothing, 0, 14) {
     const int d = loop % 2 == 0 || loop > 11 ? 2 : 3, way = loop > 11 ? 0 : loop / 2 % 3;
     const bool counts_from_there = loop / 6 == 1;
-    // Steps that follow their load book the work of loads in proportion otherwise than that of others.
+    // Steps that follow their load record the work of loads in proportion otherwise than that of others.
     const auto choose = [&](const Scene& scene) {
         REQUIRE(scene, delam_problem_set_text, scene.problem(), "step_control", "fixed");
         REQUIRE(scene, delam_problem_set_text, scene.problem(), "mixity_rule", "frozen");

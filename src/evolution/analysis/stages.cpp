@@ -47,7 +47,7 @@ std::shared_ptr<Solver> next_stage(Solver& now) {
         for (std::size_t p = 0; p < own.prescribed.size(); ++p) missing -= own.prescribed[p] * at.theta[p];
         next.stage.offset[c] = coefficient(now, own.begin->pattern, missing);
     }
-    // What rounding has left of a reaction would push a part that nothing holds any more.
+    // Rounding leaves reactions that would push a part that nothing holds any more.
     const double rounding = now.stepper().contact().rounding_of_forces(at.theta, at.response.jump);
     for (std::size_t k = 0; k < reaction.size(); ++k) {
         if (std::abs(reaction[k]) <= rounding) continue;

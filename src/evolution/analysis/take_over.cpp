@@ -25,9 +25,9 @@ Stepper::Result take_over(Stepper& stepper, const State& before, std::span<const
     next.jump_before = before.jump_before;
     next.growth = {};
     next.growth.way = before.growth.way;
-    const double potential = next.ledger.load_potential - before.ledger.load_potential;
-    next.ledger.initial = before.ledger.initial + potential;
-    next.ledger.initial_linear = before.ledger.initial_linear + potential;
+    next.ledger.initial = before.ledger.initial;
+    next.ledger.initial_linear = before.ledger.initial_linear;
+    next.ledger.work = before.ledger.work + next.ledger.load_potential - before.ledger.load_potential;
     return result;
 }
 

@@ -3,8 +3,9 @@
 //
 // Where supports begin or end, nothing moves: those that begin find the displacements that are there, and those that
 // end leave their forces. So the displacements, the damage and the stored energy are those of the state before, and
-// only the reactions are others. The potential of forces that supports leave has a zero of its own, from which its
-// energy counts.
+// only the reactions are others. A force that a support leaves brings its potential, -f.u, with it. The recorded work
+// takes this up, as if the force had been a dead load from the beginning: once it has fallen to zero, the work is that
+// of the reactions and of the force on the way back.
 #pragma once
 
 #include <span>
