@@ -74,6 +74,8 @@ def opening():
     expect(len(rows) == 7 and all(abs(float(row["toughness (J/m2)"]) / TOUGH - 1) < 1e-3 for row in rows),
            "the R-curve is flat")
     expect(abs(float(rows[-1]["crack (mm)"]) - 90) < 1e-6, "its lengths are in mm")
+    expect(about["confidence"] == 0.95 and about["warnings"] == [] and about["intervals"]["modified beam theory"]["max"]["low"] is None
+           and "none for" in shown and "there is neither noise in the curve nor scatter of marks" in shown, f"no interval without noise: {shown}")
     expect(not os.path.exists(os.path.join(out, "study.lock")), "no lock is left")
     expect(read(os.path.join(out, "evaluate.png"))[:4] == b"\x89PNG", "a picture")
     # Without marks: of E1, the crack that the compliance has, its offset included.
@@ -116,6 +118,29 @@ def opening():
     code, shown, error = start(*words, "--beside", here, "--out", out)
     expect(code == 0 and "is of mode II, and this test of mode I: it is not drawn" in error, f"a fit of another mode: {error}")
     expect_error(start(*words, "--beside", os.path.join(here, "nowhere"), "--out", out), 2, "the folder of delam fit is expected")
+
+
+def intervals():
+    """With noise and lengths that are misread each toughness has an interval, which is wider at a higher confidence."""
+    here = folder()
+    random = np.random.default_rng(1)
+    x, y, marks = opened(0.004)
+    path = raw(os.path.join(here, "dcb.csv"), ["Extension (mm)", "Load (N)", "Crack (mm)"],
+               (x, y + random.normal(0, 0.005 * y.max(), len(y)), marks + random.normal(0, 0.3, len(y))))
+    found = []
+    for more in ([], ["--confidence", "0.99"]):
+        code, shown, error = start("evaluate", "dcb", path, "--width", "25mm", "--arm", "1.5mm", "--notch", "50mm", *more, "--out", os.path.join(here, "out"))
+        about = evaluated(os.path.join(here, "out"))
+        found.append(about["intervals"]["modified beam theory"])
+        level = 99 if more else 95
+        expect(code == 0 and f"{level} % interval, modified beam theory: visual " in shown and "numbers of the sheet count as right" in shown
+               and all(one["low"] < about["toughness"]["modified beam theory"].get(name, about["propagation"]["modified beam theory"]["mean"]) < one["high"]
+                       for name, one in found[-1].items()), f"each toughness has an interval: {found[-1]} {error}")
+    expect(set(found[0]) == {"visual", "NL", "5 %", "max", "propagation"}
+           and all(found[1][name]["high"] - found[1][name]["low"] > 1.2 * (one["high"] - one["low"]) for name, one in found[0].items()),
+           "which is wider at 99 %")
+    expect(found[0]["max"]["sources"].keys() == {"the noise of the curve", "the line through 7 crack lengths"}, f"and comes from: {found[0]['max']}")
+    expect_error(start("evaluate", "dcb", path, "--confidence", "1", "--out", here), 2, "a number from 0.01 to 0.9999")
 
 
 def bent(a, half):
@@ -395,4 +420,5 @@ else:
     effective()
     implausible()
     replaced()
+    intervals()
 finish()

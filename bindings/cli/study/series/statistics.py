@@ -6,7 +6,7 @@ import numpy as np
 
 from measured.chance import student
 
-LEAST = 5  # specimens: ASTM D5528 (8.1), D7905 and D6671 ask for "at least five specimens per test condition", ISO 15024 for five
+LEAST = 5  # specimens for each test condition: ASTM D5528, D7905 and D6671, and ISO 15024, ask for so many at least
 ASKED = {"dcb": "ISO 15024 and ASTM D5528", "enf": "ASTM D7905", "mmb": "ASTM D6671"}
 # What is the same for all specimens of one test condition; SI, as said, by the factor.
 SAME_FOR_ALL = (("span", "mm", 1e3), ("lever", "mm", 1e3), ("E1", "GPa", 1e-9), ("E2", "GPa", 1e-9), ("G13", "GPa", 1e-9))
