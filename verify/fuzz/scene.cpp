@@ -56,7 +56,7 @@ void check(const std::string& file) {
     if (is_work(scene)) return;
     const cli::Model model = cli::build(cli::new_context(), scene);
     bool converged = true;
-    const cli::Solver solver = cli::new_solver(model, scene, converged);
+    const cli::Solver solver = cli::new_solver(model, scene, nullptr, converged);
     const cli::History history(model, scene);
     expect(!history.header().empty(), "a history has a header", "history");
     (void)history.row(solver.get());
