@@ -472,7 +472,7 @@ TEST(waiting_request) {
     expect(delam_context_cancel(context) == DELAM_OK, "delam_context_cancel");
     delam_solver* like = nullptr;
     expect(delam_solver_create_like(host.h.problem, host.h.solver, 0.0, &like) == DELAM_CANCELLED && like == nullptr,
-           "the request has waited for \"delam_solver_create_like\"");
+           "delam_solver_create_like");
     host.require(delam_solver_advance(host.h.solver, 0.5), "delam_solver_advance");
     expect(delam_context_cancel(context) == DELAM_OK, "delam_context_cancel");
     double value = 0.0;

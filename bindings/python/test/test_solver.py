@@ -350,6 +350,7 @@ class SharedBodies(unittest.TestCase):
             alone = delam.Solver(problem)
             shared = delam.Solver(problem, like=first)
             self.assertEqual((alone.values["bulk_factorisations"], shared.values["bulk_factorisations"]), (1, 0))
+            self.assertTrue(first.shares_bodies(problem))
             first.close()
             for own, other in zip(self.walk(alone), self.walk(shared)):
                 np.testing.assert_array_equal(own, other)
@@ -387,6 +388,7 @@ class SharedBodies(unittest.TestCase):
                                               problem.mesh.find_node((0, 3e-3)), (1.0, 0.0)))
         for change in changes:
             change()
+            self.assertFalse(first.shares_bodies(problem))
             alone, other = delam.Solver(problem), delam.Solver(problem, like=first)
             self.assertEqual(other.values["bulk_factorisations"], 1)
             alone.advance(0.3)

@@ -130,6 +130,12 @@ class Solver(Object):
         self._warn_of_bare_interfaces()
         self._outcome(outcome, 3)
 
+    def shares_bodies(self, problem: Problem) -> bool:
+        """Tells whether Solver(problem, like=self) would share the condensed bodies of this solver."""
+        shares = ctypes.c_int32()
+        self._call(library.delam_solver_shares_bodies, problem._handle, shares)
+        return bool(shares.value)
+
     def _warn_of_bare_interfaces(self) -> None:
         """Warns of interfaces that have a law, but no pair that holds from the start."""
         counts = self.problem._pair_counts
