@@ -58,9 +58,10 @@ def viewed(scene, *words):
 
 
 def near(values, exact, bits):
-    """As close as so many significant bits are."""
+    """As close as so many significant bits are of what single precision leaves."""
     exact = np.asarray(exact)
-    return values.shape == exact.shape and np.all(np.abs(values - exact) <= np.abs(exact) * 2.0 ** -bits + 1e-37)
+    least = 2.0 ** -bits + 2.0 ** -24
+    return values.shape == exact.shape and np.all(np.abs(values - exact) <= np.abs(exact) * least + 1e-37)
 
 
 def area_of(polygon, points):
