@@ -156,6 +156,8 @@ def outliers():
            and "5 of 6 specimens count; left out (--leave-out): s6" in shown and "outlier" not in error, f"left out: {mean} {shown} {error}")
     expect(table(out)["s6"]["counted"] == "no" and float(table(out)["s6"]["modified beam theory: max (J/m2)"]) > 500, "its row stays")
     expect_error(start("evaluate", "dcb", *paths, *SHEET, "--leave-out", "s7", "--out", out), 2, "--leave-out s7: the name of one specimen is expected: s1, ")
+    code, _, error = start("evaluate", "dcb", *paths[:2], written(here, "copy.csv", read(paths[1]).decode()), *SHEET, "--out", out, "--replace")
+    expect(code == 0 and "copy has the same curve as s2: is one file a copy of the other?" in error, f"a copy is told: {error}")
     code, shown, error = start("evaluate", "dcb", paths[0], *SHEET, "--specimen", "all", "--out", out, "--replace")
     only = series(out)["statistics"]["modified beam theory"]["max"]
     expect(code == 0 and "one has no standard deviation" in error and only["count"] == 1 and only["deviation"] is None and only["low"] is None,

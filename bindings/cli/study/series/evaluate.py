@@ -64,7 +64,7 @@ def remarks(members, counted, columns, given):
     """What is to be said of the series as a whole."""
     yield from disagreements(counted)
     if len(counted) < LEAST:
-        yield (f"{len(counted)} specimen{'s' * (len(counted) != 1)} count{'s' * (len(counted) == 1)}: {ASKED[given.test]} ask for at least "
+        yield (f"{len(counted)} specimen{'s' * (len(counted) != 1)} count{'s' * (len(counted) == 1)}: {ASKED[given.test]} ask{'' if ' and ' in ASKED[given.test] else 's'} for at least "
                f"{LEAST}" + ("; one has no standard deviation" if len(counted) == 1 else ""))
     short = [f"{method}: {', '.join(member.name for member in counted if member not in having)}" for method in dict(columns)
              for having in [values_of(counted, method, "max")[0]] if len(having) < len(counted)]
@@ -114,7 +114,7 @@ def lines(members, columns, found, level):
                 for point in points if found[method, point].count) + " J/m2"
         told = [f"{point} {found[method, point].low:.4g} to {found[method, point].high:.4g}" for point in points if found[method, point].low is not None]
         if told and k == 0:
-            yield f"{100 * level:g} % interval of the mean (Student, {found[method, points[-1]].count - 1} degrees of freedom): {', '.join(told)} J/m2"
+            yield f"{100 * level:g} % interval of the mean (Student, count - 1 degrees of freedom): {', '.join(told)} J/m2"
 
 
 def csv_text(rows):

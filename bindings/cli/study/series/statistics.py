@@ -65,6 +65,11 @@ def disagreements(members):
         if len(groups) > 1:
             yield (f"--{key} differs: {'; '.join(f'{text} ({_named(names)})' for text, names in groups.items())}: one series has one "
                    f"{'material' if key[0] in 'EG' else 'fixture'}, and a mean over several means little")
+    for k, member in enumerate(members):
+        same = [other.name for other in members[:k] if np.array_equal(other.found.curve.displacement, member.found.curve.displacement)
+                and np.array_equal(other.found.curve.load, member.found.curve.load)]
+        if same:
+            yield f"{member.name} has the same curve as {same[0]}: is one file a copy of the other?"
     for key, name in MEASURED:
         values = np.array([member.found.sheet[key] for member in members])
         middle = float(np.median(values))
