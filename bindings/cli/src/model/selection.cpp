@@ -128,7 +128,8 @@ Selected select_patch(const delam_context* context, const delam_mesh* mesh, cons
     return out;
 }
 
-// All nodes of the set, including all copies of doubled ones; only those of a body, if one is named.
+// All nodes of the set, including all copies of doubled ones; only those of a body, if one is named. A tied node that
+// stands for one of them is no place to hold or load anything at.
 Selected select_set(const delam_context* context, const delam_mesh* mesh, const Scene& scene,
                     const Selection& selection, const std::string& name) {
     const MeshNodes nodes = all_nodes(context, mesh, selection.place);
@@ -143,7 +144,9 @@ Selected select_set(const delam_context* context, const delam_mesh* mesh, const 
     }
     Selected out;
     for (std::size_t i = 0; i < nodes.bodies.size(); ++i)
-        if (in[static_cast<std::size_t>(origins[i])] && (selection.body < 0 || nodes.bodies[i] == selection.body))
+        if (in[static_cast<std::size_t>(origins[i])] &&
+            (selection.body < 0 ? nodes.bodies[i] >= 0 || origins[i] == static_cast<std::int64_t>(i)
+                                : nodes.bodies[i] == selection.body))
             out.nodes.push_back(static_cast<std::int64_t>(i));
     if (out.nodes.empty())
         throw SceneFailure(selection.place, fmt::format("no node of the set \"{}\" is in body \"{}\"", name,
@@ -153,15 +156,17 @@ Selected select_set(const delam_context* context, const delam_mesh* mesh, const 
 
 }  // namespace
 
-// Control nodes follow the nodes of a mesh file, before all copies; with layers they come last.
+// Control nodes follow the nodes of a mesh file, before all copies; with layers they come last but for the tied nodes of
+// interfaces.
 std::int64_t control_node(const delam_context* context, const delam_mesh* mesh, const Scene& scene, std::size_t index,
                           const Place& place) {
     if (scene.mesh)
         return static_cast<std::int64_t>(scene.mesh->nodes.size()) / scene.mesh->dimension +
                static_cast<std::int64_t>(index);
-    std::int64_t count = 0;
+    std::int64_t count = 0, tied = 0;
     call(context, delam_mesh_size(mesh, nullptr, &count, nullptr, nullptr, nullptr), place);
-    return count - static_cast<std::int64_t>(scene.controls.size()) + static_cast<std::int64_t>(index);
+    call(context, delam_mesh_node_ties(mesh, &tied, nullptr, nullptr, nullptr, nullptr, nullptr), place);
+    return count - tied - static_cast<std::int64_t>(scene.controls.size()) + static_cast<std::int64_t>(index);
 }
 
 Selected select(const delam_context* context, const delam_mesh* mesh, const Scene& scene, const Selection& selection,
