@@ -135,6 +135,10 @@ fix = {axes(dimension).replace(f', "{up}"', "")}
 ''')
     whole = last_row(direct)
     near(last_row(nose), "reaction", whole["reaction"] if whole else 0.0, f"{dimension}D: a rigid nose")
+    if dimension == 3:  # pairs at mid-side nodes have tied nodes, which follow the control node
+        quadratic = ("--set", "geometry.cell=hex20")
+        whole = last_row(direct, *quadratic)
+        near(last_row(nose, *quadratic), "reaction", whole["reaction"] if whole else 0.0, "a rigid nose, hex20")
 
     # A rigid grip that rotates. A moment bends a bar without lateral contraction as beam theory says.
     grip = block(dimension, held + f'''

@@ -156,7 +156,7 @@ Selected select_set(const delam_context* context, const delam_mesh* mesh, const 
 
 }  // namespace
 
-// Control nodes follow the nodes of a mesh file, before all copies; with layers they come last but for the tied nodes of
+// Control nodes follow the nodes of a mesh file, before all copies; with layers they come last, before tied nodes of
 // interfaces.
 std::int64_t control_node(const delam_context* context, const delam_mesh* mesh, const Scene& scene, std::size_t index,
                           const Place& place) {
