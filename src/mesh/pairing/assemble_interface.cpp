@@ -12,9 +12,9 @@
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 #include "mesh/pairing/interfaces.hpp"
+#include "mesh/points.hpp"
 #include "mesh/rule/mid_sides.hpp"
 #include "mesh/rule/nodal_rule.hpp"
-#include "mesh/points.hpp"
 
 namespace delam {
 

@@ -16,9 +16,9 @@
 #include "mesh/mesh.hpp"
 #include "mesh/pairing/assemble_interface.hpp"
 #include "mesh/pairing/interfaces.hpp"
-#include "mesh/rule/mid_sides.hpp"
 #include "mesh/pairing/overlap.hpp"
 #include "mesh/points.hpp"
+#include "mesh/rule/mid_sides.hpp"
 
 namespace delam {
 

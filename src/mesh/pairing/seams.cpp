@@ -18,9 +18,9 @@
 #include "mesh/faces.hpp"
 #include "mesh/pairing/assemble_interface.hpp"
 #include "mesh/pairing/interfaces.hpp"
-#include "mesh/rule/mid_sides.hpp"
 #include "mesh/pairing/mortar_interface.hpp"
 #include "mesh/points.hpp"
+#include "mesh/rule/mid_sides.hpp"
 
 namespace delam {
 

@@ -11,8 +11,8 @@
 #include "delam/delam.h"
 #include "mesh/pairing/assemble_interface.hpp"
 #include "mesh/pairing/interfaces.hpp"
-#include "mesh/rule/mid_sides.hpp"
 #include "mesh/points.hpp"
+#include "mesh/rule/mid_sides.hpp"
 
 namespace delam {
 
