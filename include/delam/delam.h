@@ -816,9 +816,9 @@ DELAM_API int32_t delam_problem_begin_constraints(delam_problem *problem, int64_
                                                   int64_t pattern);
 /* Lets the constraints first .. first + count - 1 end within the analysis, for supports that are taken away. From
  * `time` on, they are replaced by the forces that they had, times factor(t) / factor(`time`) of `pattern`. This pattern
- * drives forces; with a factor that falls from 1 to 0, the parts are let go gradually. Everything else is as in
- * delam_problem_begin_constraints. Displacements of the same nodes may be prescribed again after this call, for times
- * that do not overlap.
+ * drives forces; with a factor that falls from 1 to 0, the parts are let go gradually. The value `work` then takes up
+ * the potential of these forces, so that the balance goes on. Everything else is as in delam_problem_begin_constraints.
+ * Displacements of the same nodes may be prescribed again after this call, for times that do not overlap.
  * [unit time t finite; null none; status argument, problem; since 0.2] */
 DELAM_API int32_t delam_problem_end_constraints(delam_problem *problem, int64_t first, int64_t count, double time,
                                                 int64_t pattern);

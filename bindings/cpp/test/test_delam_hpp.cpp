@@ -250,6 +250,9 @@ void test_problem() {
     delam::Problem cell(context, square);
     cell.add_periodic({1.0, 0.0, 0.0, 1.0}, {4, 5});
     expect(cell.constraints().matrix.row_starts.size() > 1, "a periodic cell");
+    const auto found = cell.add_pattern("found", {0.0}, {1.0}), left = cell.add_pattern("left", {0.0}, {1.0});
+    cell.begin_constraints(0, 2, 0.5, found);
+    cell.end_constraints(1, 1, 1.5, left);
 }
 
 void test_gaps() {

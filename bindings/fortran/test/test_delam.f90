@@ -334,6 +334,7 @@ contains
     type(delam_mesh) :: squares, stack, coarse, slit, slot
     type(delam_problem) :: cell
     integer(delam_index), allocatable :: a(:), b(:), nodes(:), starts(:), of(:)
+    integer(delam_index) :: pattern
     real(dp), allocatable :: weights(:), xy(:,:)
     integer :: interface, status, i, seams, walls
     integer(delam_label) :: body_a, body_b
@@ -398,6 +399,12 @@ contains
     call cell%create(context, squares)
     call cell%add_periodic(reshape([real(dp) :: 1, 0, 0, 1], [2, 2]), [5_delam_index, 6_delam_index], status=status)
     call expect(status == DELAM_OK, 'a periodic cell with its control nodes')
+    call cell%add_pattern('found', [0.0_dp], [1.0_dp], pattern)
+    call cell%begin_constraints(1_delam_index, 2_delam_index, 0.5_dp, pattern, status=status)
+    call expect(status == DELAM_OK, 'constraints that begin')
+    call cell%add_pattern('left', [0.0_dp], [1.0_dp], pattern)
+    call cell%end_constraints(2_delam_index, 1_delam_index, 0.25_dp, pattern, status=status)
+    call expect(status == DELAM_ERROR_PROBLEM, 'a constraint that ends before it begins')
   end subroutine test_obstacles_ties_periods
 
   ! A stiff, brittle interface between two soft squares breaks all at once.

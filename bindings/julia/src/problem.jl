@@ -209,16 +209,17 @@ end
 
 "Constraints `range`, in the order in which they were added from 1 on, begin at `time`, from where the nodes are then.
 The factor of `pattern`, over that at `time`, is what is left of the way to where they are prescribed."
-begin_constraints!(problem::Problem, range, time, pattern) =
-    change!(Raw.delam_problem_begin_constraints, problem, range, time, pattern)
+function begin_constraints!(problem::Problem, range, time, pattern)
+    ask(problem) do handle
+        Raw.delam_problem_begin_constraints(handle, first(range) - 1, length(range), time, from_zero(pattern))
+    end
+    return problem
+end
 
 "Constraints `range` end at `time`. Their forces, times the factor of `pattern` over that at `time`, take their place."
-end_constraints!(problem::Problem, range, time, pattern) =
-    change!(Raw.delam_problem_end_constraints, problem, range, time, pattern)
-
-function change!(call, problem::Problem, range, time, pattern)
+function end_constraints!(problem::Problem, range, time, pattern)
     ask(problem) do handle
-        call(handle, first(range) - 1, length(range), time, from_zero(pattern))
+        Raw.delam_problem_end_constraints(handle, first(range) - 1, length(range), time, from_zero(pattern))
     end
     return problem
 end

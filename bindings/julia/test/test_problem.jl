@@ -69,4 +69,9 @@
     set_orientation!(incomplete, [1.0 0.0; 0.0 1.0; 0.0 0.0])
     @test_throws DimensionMismatch set_orthotropic!(incomplete, [1.0, 2.0])
     @test_throws InvalidArgument prescribe!(incomplete, 1, "z")
+    prescribe!(incomplete, [1, 2], "y")
+    found, left = (add_pattern!(incomplete, name, [0.0], [1.0]) for name in ("found", "left"))
+    begin_constraints!(incomplete, 1:2, 0.5, found)
+    end_constraints!(incomplete, 2:2, 1.5, left)
+    @test_throws ProblemError begin_constraints!(incomplete, 2:2, 2.0, found)
 end

@@ -95,26 +95,23 @@ class Changes {
 public:
     Changes(const Model& model, const Scene& scene) : model_(model), scene_(scene) {}
     // Lets the constraints from `first` on begin and end as a support says.
-    void set(const Prescription& data, std::int64_t first) {
-        const std::int64_t count = static_cast<std::int64_t>(constraint_count()) - first;
+    void set(const Prescription& data, std::size_t first) {
+        if (!data.begin && !data.end) return;
         delam_problem* problem = model_.problem.get();
+        std::int64_t rows = 0;
+        call(model_.context.get(),
+             delam_problem_constraints(problem, &rows, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr),
+             data.place);
+        const auto begin = static_cast<std::int64_t>(first), count = rows - begin;
         if (count == 0) return;
         if (data.begin)
             call(model_.context.get(),
-                 delam_problem_begin_constraints(problem, first, count, data.begin->at, pattern("begin", *data.begin)),
+                 delam_problem_begin_constraints(problem, begin, count, data.begin->at, pattern("begin", *data.begin)),
                  data.place);
         if (data.end)
             call(model_.context.get(),
-                 delam_problem_end_constraints(problem, first, count, data.end->at, pattern("end", *data.end)),
+                 delam_problem_end_constraints(problem, begin, count, data.end->at, pattern("end", *data.end)),
                  data.place);
-    }
-    [[nodiscard]] std::size_t constraint_count() const {
-        std::int64_t rows = 0;
-        call(model_.context.get(),
-             delam_problem_constraints(model_.problem.get(), &rows, nullptr, nullptr, nullptr, nullptr, nullptr,
-                                       nullptr),
-             std::string("constraints"));
-        return static_cast<std::size_t>(rows);
     }
 
 private:
@@ -237,9 +234,9 @@ void fill(Model& model, const Scene& scene) {
     for (const bool ends : {true, false})
         for (const Prescription& data : scene.prescriptions) {
             if (data.end.has_value() != ends) continue;
-            const std::size_t first = changes.constraint_count();
+            const std::size_t first = model.constraint_places.size();
             prescribe(model, scene, data, prescribed);
-            changes.set(data, static_cast<std::int64_t>(first));
+            changes.set(data, first);
             note_constraints(model, data.place);
         }
     for (const DeadForce& data : scene.forces) add_force(model, scene, data);
