@@ -43,7 +43,7 @@ for name in "${named[@]}"; do
     [[ -f $work/development/share/doc/delam/$name ]] || fail "component development has no $name, which delam.h names"
 done
 if has cli; then
-    belongs='bin/delam|lib/delam/delam-gmsh\.so|share/delam/((_pictures|specimen|study(/(fitting|measured|specimens))?)/)?[a-z_]+\.py|share/delam/view\.html'
+    belongs='bin/delam|lib/delam/delam-gmsh\.so|share/delam/((_pictures|specimen|study(/(fitting|measured|scatter|series|specimens))?)/)?[a-z_]+\.py|share/delam/view\.html'
     belongs+='|share/doc/delam/(bindings/cli/([a-z]+/)?([A-Z]+\.md|scene\.schema\.json)|examples/enf/enf\.toml)'
     belongs+='|share/man/man[15]/delam(-scene)?\.[15]|share/bash-completion/completions/delam|share/zsh/site-functions/_delam'
     belongs+='|share/fish/vendor_completions\.d/delam\.fish'

@@ -76,13 +76,15 @@ public:
     Solver(const Problem& problem, double time)
         : shared_(problem.shared()), laws_(problem.host_laws()), patterns_(problem.pattern_count()) {
         delam_solver* made = nullptr;
-        take(delam_solver_create(problem.get(), time, &made), made);
+        const auto status = delam_solver_create(problem.get(), time, &made);
+        take(status, made);
     }
     // Shares the condensed bodies of another solver, if they are equal (delam_solver_create_like).
     Solver(const Problem& problem, double time, const Solver& other)
         : shared_(problem.shared()), laws_(problem.host_laws()), patterns_(problem.pattern_count()) {
         delam_solver* made = nullptr;
-        take(delam_solver_create_like(problem.get(), other.get(), time, &made), made);
+        const auto status = delam_solver_create_like(problem.get(), other.get(), time, &made);
+        take(status, made);
     }
 
     // Returns the handle of C.
