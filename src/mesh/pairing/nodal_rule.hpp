@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Quadrature of a face with its nodes as points and positive weights only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "mesh/mesh.hpp"
+
+namespace delam {
+
+struct NodalRule {
+    std::array<double, most_face_nodes> weight{};  // L (2D) or L2 (3D), > 0
+    // The normal at each node times the area that the node represents.
+    std::array<std::array<double, 3>, most_face_nodes> area{};
+};
+
+// nodes: of a face, corners then mid-sides. Weights sum to the length of an edge, curved or not, and to the area of a
+// face; that of a curved face is the area of its linear pieces (face_pieces).
+NodalRule nodal_rule(const Mesh& mesh, std::span<const std::int64_t> nodes);
+
+}  // namespace delam
