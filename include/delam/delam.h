@@ -1022,7 +1022,7 @@ DELAM_API int32_t delam_solver_create_like(const delam_problem *problem, const d
                                            delam_solver **out);
 /* Tells whether delam_solver_create_like would share the condensed bodies of this solver. *shares is 1 if they are
  * equal, and neither the solver nor the options of the problem ask for another operator; else 0. In that case a host
- * that lacks memory can destroy this solver first.
+ * that lacks memory can destroy this solver first. It is 0 for problems whose constraints begin or end.
  * [null none; status argument; since 0.2] */
 DELAM_API int32_t delam_solver_shares_bodies(const delam_solver *solver, const delam_problem *problem, int32_t *shares);
 /* Destroys a solver and its state.

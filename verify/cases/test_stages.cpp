@@ -288,7 +288,7 @@ LOOP_TEST(support_that_does_nothing, 0, 14) {
                        "reaction");
 }
 
-// At the change itself all energies are those before, and the balance goes on.
+// The energies at a change are those before it, and the balance goes on.
 LOOP_TEST(energies_across_a_change, 0, 6) {
     const int d = loop % 2 == 0 ? 2 : 3, way = loop / 2;
     Cantilevers arms(d, way);

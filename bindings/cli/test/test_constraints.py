@@ -135,7 +135,7 @@ fix = {axes(dimension).replace(f', "{up}"', "")}
 ''')
     whole = last_row(direct)
     near(last_row(nose), "reaction", whole["reaction"] if whole else 0.0, f"{dimension}D: a rigid nose")
-    if dimension == 3:  # pairs at mid-side nodes have tied nodes, which follow the control node
+    if dimension == 3:  # cells with mid-side nodes as well
         quadratic = ("--set", "geometry.cell=hex20")
         whole = last_row(direct, *quadratic)
         near(last_row(nose, *quadratic), "reaction", whole["reaction"] if whole else 0.0, "a rigid nose, hex20")

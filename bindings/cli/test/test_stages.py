@@ -61,7 +61,7 @@ def check_ends():
         close("balance", row["defect"] + 1, 1)
     rows, _ = history(text + SECOND.format("*Boundary\n" + PULL))
     close("pulled again", rows[-1]["stored_bulk"], before, 1e-6)
-    # What the model holds and the first step frees never holds; what holds nothing is told with its time.
+    # A support of the model that the first step frees never holds; a stage that holds nothing is told with its time.
     scene, _ = imported(deck(loads=PULL, held=kept.replace("*Boundary, op=NEW\n", "")).replace(
         "*Boundary\nBottom", "*Boundary, op=NEW\nBottom").replace("*Step", "*Boundary\nTop, 2\n*Step", 1))
     expect("until" not in scene, "freed by the first step")

@@ -18,7 +18,7 @@ REPLICAS = 60
 NOISE = "the noise of the curve"
 MEAN = "propagation"
 # Standard errors below this part of a toughness are rounding: the data have neither noise nor marks that scatter. Files have
-# four to six digits; half and twice of it change no interval of `test_intervals.py`.
+# four to six digits; half and twice of it change no interval of `dcb` in `test_intervals.py`, half none of `mmb` (twice: not measured).
 ROUNDING = 1e-4
 
 

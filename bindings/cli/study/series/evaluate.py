@@ -17,7 +17,7 @@ from series.members import members_of
 from series.statistics import ASKED, LEAST, columns_of, disagreements, outlier_in, statistics_of, values_of
 
 NAMES = ["series.json", "series.csv", "r-curves.csv", "series.png"]
-# What a row has of its specimen: title, key of the sheet in SI or name of a number of its points, and the unit's size.
+# A row has these of its specimen: title, key of the sheet in SI or name of a number of its points, and the unit's size.
 NUMBERS = (("width (mm)", "width", 1e-3), ("arm (mm)", "arm", 1e-3), ("notch (mm)", "notch", 1e-3), ("span (mm)", "span", 1e-3),
            ("lever (mm)", "lever", 1e-3), ("compliance (mm/N)", "compliance", 1e-3), ("bending modulus (GPa)", "modulus", 1e9))
 STATISTICS = (("mean", "mean", 1.0), ("standard deviation", "deviation", 1.0), ("CV (%)", "variation", 100.0), ("count", "count", 1))

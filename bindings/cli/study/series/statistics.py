@@ -8,9 +8,9 @@ from measured.chance import student
 
 LEAST = 5  # specimens for each test condition: ASTM D5528, D7905 and D6671, and ISO 15024, ask for so many at least
 ASKED = {"dcb": "ISO 15024 and ASTM D5528", "enf": "ASTM D7905", "mmb": "ASTM D6671"}
-# What is the same for all specimens of one test condition; SI, as said, by the factor.
+# These are the same for all specimens of one test condition; SI, as said, by the factor.
 SAME_FOR_ALL = (("span", "mm", 1e3), ("lever", "mm", 1e3), ("E1", "GPa", 1e-9), ("E2", "GPa", 1e-9), ("G13", "GPa", 1e-9))
-# What is measured on each: from this part of the middle one on, a slip of the sheet is likely. Saws are off by 1 %, plates
+# These are measured on each: from this part of the middle one on, a slip of the sheet is likely. Saws are off by 1 %, plates
 # by 3 %, and a notch of 50 mm that is broken in begins 3 mm later. Half of it tells such notches, twice of it misses a
 # width of 20 mm among those of 25 mm.
 MEASURED, DIFFERS = (("width", "width"), ("arm", "arm"), ("notch", "notch")), 0.1
