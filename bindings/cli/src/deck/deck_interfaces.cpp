@@ -24,10 +24,6 @@ namespace {
 
 // A small part more than the distance of the faces, so that rounding of coordinates does not part them.
 constexpr double allowance = 1.001;
-// Stiffness of an interface whose deck gives none, in stiffnesses of a cell: that of Abaqus' penalty contact, as its
-// manual says; half and twice of it change the compliance of an interface by a tenth of a cell's (ctest -R
-// cli_deck_keywords).
-constexpr double penalty_factor = 10;
 // Largest distance at which nodes match, in shortest edges: less than half, at which a node may have two others as
 // near.
 constexpr double most_tolerance = 0.49;
@@ -57,6 +53,7 @@ public:
           edge_(shortest_edge(mesh)),
           places_(mesh, edge_),
           cohesive_sections_(deck, model, &Part::cohesive_sections),
+          laws_(deck, mesh.dimension, edge_),
           neighbours_(mesh.body_names.size()) {
         for (const BodyPair& pair : pairs_of_bodies(mesh, faces_, edge_, model.file)) {
             touching_[{pair.a, pair.b}] = pair;
@@ -72,7 +69,7 @@ public:
         for (const Tie& tie : model_.ties) add_tie(tie);
         if (!deck_.adhering.empty()) add_everywhere();
         for (const auto& [key, pair] : touching_) bond_shared(pair);
-        std::string out = laws_;
+        std::string out = laws_.text();
         for (const Held& held : held_) out += entry(held);
         for (const auto& [key, pair] : touching_) {
             if (find(pair.a, pair.b) != nullptr) continue;
@@ -251,8 +248,8 @@ private:
             throw SceneFailure(section.place, fmt::format("THICKNESS=GEOMETRY, and the elements are {:.6g} to {:.6g} "
                                                           "thick: one law has one stiffness; give a section to each",
                                                           least, most));
-        const std::string law = cohesive_law(material, thickness);
-        if (!section.orientation.empty() && sheared_.contains(law))
+        const std::string law = laws_.of_material(material, thickness);
+        if (!section.orientation.empty() && laws_.two_shears(law))
             throw SceneFailure(section.place,
                                "ORIENTATION with two stiffnesses in shear is not imported: give shear_axis");
         for (const auto& [bodies, gap] : gaps) {
@@ -275,27 +272,6 @@ private:
                 fmt::format("\"{}\" is tied: the bodies to which it is tied have its law between them, on their own "
                             "faces where its elements lie",
                             set.name));
-    }
-
-    std::string cohesive_law(const MaterialCards& material, double thickness) {
-        if (material.elastic != "TRACTION")
-            throw SceneFailure(material.place,
-                               "material \"" + material.name + "\" of cohesive elements needs *ELASTIC, TYPE=TRACTION");
-        Numbers stiffness = material.constants;
-        for (double& k : stiffness) k /= thickness;
-        return new_law("material", material.name, stiffness, thickness, material.damage, material.elastic_place);
-    }
-
-    // The law of this name and thickness, made where it is new.
-    std::string new_law(const std::string& of, const std::string& name, const Numbers& stiffness, double thickness,
-                        const DamageCards& damage, const Place& place) {
-        const auto [known, inserted] = law_names_.emplace(std::pair(of + " " + name, thickness), name);
-        if (!inserted) return known->second;
-        const std::size_t alike = ++laws_of_name_[name];
-        if (alike > 1) known->second = fmt::format("{} ({})", name, alike);
-        laws_ += law_text(known->second, stiffness, thickness, damage, mesh_.dimension, place, deck_.changed) + "\n";
-        if (two_shears(stiffness, mesh_.dimension)) sheared_.insert(known->second);
-        return known->second;
     }
 
     [[nodiscard]] std::string faces_named(const Entry& raw) const {
@@ -321,7 +297,7 @@ private:
         const std::string master = faces_named(pair.master);
         std::string law;
         if (interaction.cohesive) {
-            law = interaction_law(interaction);
+            law = laws_.of_interaction(interaction);
             require_extent(pair, interaction, slave, master);
         }
         const std::set<std::int32_t>&slaves = bodies_of(slave), &masters = bodies_of(master);
@@ -425,35 +401,7 @@ private:
                                                       " needs surfaces in *CONTACT PROPERTY ASSIGNMENT");
         for (const auto& [key, pair] : touching_)
             if (pair.shared == 0 && find(pair.a, pair.b) == nullptr)
-                add({pair.a, pair.b, interaction_law(interaction), "", 0.0, true, deck_.adhering_place});
-    }
-
-    std::string interaction_law(const InteractionCards& interaction) {
-        Numbers stiffness = interaction.stiffness;
-        if (stiffness.empty()) {
-            stiffness.assign(3, penalty_factor * softest() / edge_);
-            say_once(deck_.changed,
-                     fmt::format("interaction \"{}\": no stiffness; here that of Abaqus' contact, about {} "
-                                 "times that of a cell: {:.6g}",
-                                 interaction.name, penalty_factor, stiffness[0]));
-        }
-        return new_law("interaction", interaction.name, stiffness, 1.0, interaction.damage,
-                       interaction.stiffness_place);
-    }
-
-    // The least Young's modulus of the materials of bodies.
-    [[nodiscard]] double softest() const {
-        double out = std::numeric_limits<double>::infinity();
-        for (const Section& section : deck_.sections) {
-            if (!section.thickness.empty()) continue;
-            const MaterialCards& m = named(deck_.materials, section.material, "material", section.place);
-            const std::size_t moduli = m.elastic == "ISOTROPIC" ? 1 : m.elastic == "LAMINA" ? 2 : 3;
-            // D1111, D2222 and D3333 stand at 0, 2 and 5.
-            const bool stiffnesses = m.elastic == "ORTHOTROPIC";
-            for (std::size_t i = 0; i < moduli; ++i)
-                out = std::min(out, m.constants.at(stiffnesses ? (i + 1) * (i + 2) / 2 - 1 : i));
-        }
-        return std::isfinite(out) ? out : 1.0;
+                add({pair.a, pair.b, laws_.of_interaction(interaction), "", 0.0, true, deck_.adhering_place});
     }
 
     // The slave surface, or its bonded nodes, determine what adheres; the master must not say less.
@@ -494,7 +442,7 @@ private:
         out += held.bonded        ? "bonded = true\n"
                : held.law.empty() ? "contact = true\n"
                                   : fmt::format("law = {}\n", toml_text(held.law));
-        if (sheared_.contains(held.law)) out += "shear_axis = [1, 0, 0]  # x projected: axis 1 of the deck\n";
+        if (laws_.two_shears(held.law)) out += "shear_axis = [1, 0, 0]  # x projected: axis 1 of the deck\n";
         if (held.shared) out += "shared = \"bonded\"\n";
         if (!held.matching) out += "projected = true\n";
         if (held.tolerance > 0) out += fmt::format("tolerance = {}\n", toml_number(held.tolerance));
@@ -513,15 +461,12 @@ private:
     double edge_;
     FacePlaces places_;
     SectionIndex cohesive_sections_;
+    DeckLaws laws_;
     std::map<std::pair<std::int32_t, std::int32_t>, BodyPair> touching_;
     std::vector<std::vector<std::int32_t>> neighbours_;  // by body: those that touch it, ascending
-    std::set<std::string> sheared_;                      // laws with two stiffnesses in shear
     std::vector<Held> held_;
     std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> held_by_;  // by bodies
     std::map<std::string, std::set<std::int32_t>> bodies_of_;               // by surface
-    std::map<std::string, std::size_t> laws_of_name_;
-    std::map<std::pair<std::string, double>, std::string> law_names_;
-    std::string laws_;
 };
 
 }  // namespace
