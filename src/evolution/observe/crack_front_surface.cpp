@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "evolution/observe/crack_front.hpp"
+#include "evolution/observe/pair_links.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/points.hpp"
 
@@ -97,6 +98,13 @@ private:
     const CrackedInterface& interface_;
     std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> number_;
 };
+
+// True if a crack has parted two pairs.
+bool works(const CrackedInterface& interface, std::int64_t p, std::int64_t q) {
+    const double initial_p = interface.initial[index(p)], initial_q = interface.initial[index(q)];
+    const double adhesion_p = interface.adhesion[index(p)], adhesion_q = interface.adhesion[index(q)];
+    return adhesion_p != adhesion_q && !(undamaged(initial_p, adhesion_p) && undamaged(initial_q, adhesion_q));
+}
 
 struct Line {
     std::vector<std::size_t> crossing;
@@ -201,7 +209,7 @@ void lay_out(CrackFront& front, const Line& line, std::span<const Crossing> cros
 
 // A triangle of pairs. With the gradients g_i of its shape functions, grad zeta = sum over its sides (zeta_j -
 // zeta_i)(g_j - g_i)/3; each side is multiplied by the product of the jumps at its ends, as between two pairs of a
-// line.
+// line. On quadratic faces the sides are the links of pairs of one kind instead.
 class Triangle {
 public:
     // part: of the triangle that counts
@@ -238,34 +246,15 @@ public:
     // int Y grad zeta . n dA, in modes.
     Vector3 work(const Vector3& n) const {
         Vector3 rate{};
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (!works(i)) continue;
-            const std::int64_t p = pair_[i], q = pair_[(i + 1) % 3];
-            const double change = interface_.adhesion[index(q)] - interface_.adhesion[index(p)];
-            const double c = area_ / 6.0 * change * dot(gradient_[(i + 1) % 3] - gradient_[i], n);
-            const SpaceJump u = jump_of(interface_, p), v = jump_of(interface_, q);
-            rate[0] += c * interface_.law.normal_stiffness * u.normal * v.normal;
-            if (interface_.law.two_shears()) {
-                const double ahead =
-                    0.5 * (dot(u.pull, n) * dot(v.tangential, n) + dot(v.pull, n) * dot(u.tangential, n));
-                rate[1] += c * ahead;
-                rate[2] += c * (0.5 * (dot(u.pull, v.tangential) + dot(v.pull, u.tangential)) - ahead);
-                continue;
-            }
-            const double ahead = dot(u.tangential, n) * dot(v.tangential, n);
-            rate[1] += c * interface_.law.tangential_stiffness * ahead;
-            rate[2] += c * interface_.law.tangential_stiffness * (dot(u.tangential, v.tangential) - ahead);
-        }
+        for (std::size_t i = 0; i < 3; ++i)
+            if (works(i))
+                add_closure(interface_, pair_[i], pair_[(i + 1) % 3],
+                            area_ / 6.0 * dot(gradient_[(i + 1) % 3] - gradient_[i], n), n, rate);
         return rate;
     }
 
 private:
-    bool works(std::size_t side) const {
-        const std::size_t p = index(pair_[side]), q = index(pair_[(side + 1) % 3]);
-        return interface_.adhesion[p] != interface_.adhesion[q] &&
-               !(undamaged(interface_.initial[p], interface_.adhesion[p]) &&
-                 undamaged(interface_.initial[q], interface_.adhesion[q]));
-    }
+    bool works(std::size_t side) const { return delam::works(interface_, pair_[side], pair_[(side + 1) % 3]); }
 
     const CrackedInterface& interface_;
     std::array<std::int64_t, 3> pair_;
@@ -335,7 +324,12 @@ struct Collected {
 class Rates {
 public:
     Rates(const CrackedInterface& interface, std::vector<CrackFront>& fronts, std::vector<Bands> bands)
-        : interface_(interface), fronts_(fronts), bands_(std::move(bands)), nearest_(fronts), spent_(spent(interface)) {
+        : interface_(interface),
+          fronts_(fronts),
+          bands_(std::move(bands)),
+          nearest_(fronts),
+          spent_(spent(interface)),
+          links_(pair_links(interface.mesh, interface.geometry)) {
         for (const CrackFront& front : fronts) {
             const std::size_t n = front.points.size();
             const std::vector<double> none(n, 0.0);
@@ -353,15 +347,24 @@ public:
             }
         turn();
         for (const auto& [triangle, near] : working_) {
-            const Vector3 n = triangle.along(direction(near));
-            const double front = dot(triangle.fall(spent_), n);
-            const Vector3 work = triangle.work(n);
             const auto pairs = triangle.pairs();
-            give(near, [&](Collected& to, std::size_t k, double share) {
-                to.front[k] += share * front;
-                to.work[k] = to.work[k] + share * work;
+            give(near, [&](Collected& to, std::size_t k, double) {
                 for (const std::int64_t p : pairs) to.behind[k] = std::max(to.behind[k], spent_[index(p)]);
             });
+            if (!links_.empty()) continue;
+            const Vector3 n = triangle.along(direction(near));
+            add(near, dot(triangle.fall(spent_), n), triangle.work(n));
+        }
+        for (const PairLink& link : links_) {
+            const double fall = spent_[index(link.from)] - spent_[index(link.to)];
+            const bool working = works(interface_, link.from, link.to);
+            if (!working && fall == 0.0) continue;
+            const Near near = nearest_(0.5 * (place_of(interface_, link.from) + place_of(interface_, link.to)));
+            const Vector3 n = unit(direction(near));
+            const double area = dot(link.area, n);
+            Vector3 work{};
+            if (working) add_closure(interface_, link.from, link.to, 0.5 * area, n, work);
+            add(near, area * fall, work);
         }
         for (std::size_t p = 0; p < interface_.adhesion.size(); ++p)
             if (const auto pair = static_cast<std::int64_t>(p); in_process_zone(interface_, pair))
@@ -388,6 +391,12 @@ private:
     template <class To>
     void give(const Near& near, To&& to) {
         bands_[near.front].give(near, [&](std::size_t k, double share) { to(collected_[near.front], k, share); });
+    }
+    void add(const Near& near, double front, const Vector3& work) {
+        give(near, [&](Collected& to, std::size_t k, double share) {
+            to.front[k] += share * front;
+            to.work[k] = to.work[k] + share * work;
+        });
     }
     Vector3 direction(const Near& near) const {
         const auto& points = fronts_[near.front].points;
@@ -421,6 +430,7 @@ private:
     std::vector<Bands> bands_;
     Nearest nearest_;
     std::vector<double> spent_;
+    std::vector<PairLink> links_;       // of quadratic faces
     std::vector<Collected> collected_;  // of each front
     std::vector<Working> working_;
 };
