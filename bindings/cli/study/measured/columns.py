@@ -78,7 +78,8 @@ def guess(table, x_kind="displacement"):
     taken = {*x[:1], *y[:1], *found(table, "time"), *_by_units(table, "time")}
     cracks = found(table, "crack")
     left = [k for k, column in enumerate(table.columns) if np.isfinite(column).any() and k not in taken]
-    left = [k for k in left if k not in cracks] + cracks  # "a" may be anything, and comes last
+    # "a" may be anything: it is taken where nothing else is left.
+    left = [k for k in left if k not in cracks] if len(set(left) - set(cracks)) >= 2 - len(x[:1] + y[:1]) else left
     x = x[:1] or [k for k in left if k not in _by_units(table, "force")][:1]
     y = y[:1] or [k for k in left if k not in [*_by_units(table, "displacement"), *x]][:1]
     return x + y if x and y else None
