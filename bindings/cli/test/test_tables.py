@@ -52,6 +52,8 @@ def numbers():
         expect(number_of(cell, ".") != number_of(cell, "."), f"{cell!r} is an empty cell")
     expect(form_of(["1,234;2,345", "1,250;2,512"]).decimal == ",", "commas alone are decimal ones")
     expect(form_of(["1,234.5;2,345.0", "999.0;1.0"]).decimal == ".", "beside points they group thousands")
+    form = form_of(["900,5;49,1;", "950,0;52;", "990;55", "995;60"])
+    expect((form.decimal, form.width) == (",", 3), f"rows that end early count for the decimal sign: {form}")
     american = [("Time;Extension;Load\ns;mm;N\n", "{:.2f};{:.5f};{:,.3f}\n", lambda line: line),
                 ('"Time","Extension","Load"\n"(s)","(mm)","(N)"\n', '"{:.2f}","{:.5f}","{:,.3f}"\n', lambda line: line),
                 ("Zeit;Weg;Kraft\ns;mm;N\n", "{:.2f};{:.5f};{:,.3f}\n", lambda line: line.replace(",", "'")),

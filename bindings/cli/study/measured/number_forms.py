@@ -94,7 +94,7 @@ def form_of(lines):
     """The form with which most lines are rows; None: no line is. A column that is empty in most rows, and has a remark in
     the others, is one of words. Columns of words beside numbers count if they make more than twice as many rows: a results
     table before the curve may have none."""
-    strict, loose = (0, None), (0, None)
+    strict, loose, lines_of_best = (0, None), (0, None), 0
     for separator, decimal in WAYS:
         if separator != " " and not any(separator in line for line in lines):
             continue
@@ -115,7 +115,10 @@ def form_of(lines):
         for (width, texts, _), rows in counts.items():
             by_texts[(width, texts)] += rows
         for (width, texts), rows in by_texts.items():
-            if not texts and rows > strict[0]:
+            # Of two decimal signs with as many rows, the one with which more lines are rows of any width.
+            same = strict[1] is not None and strict[1].separator == separator and rows == strict[0]
+            if not texts and (rows > strict[0] or same and sum(counts.values()) > lines_of_best):
+                lines_of_best = sum(counts.values())
                 known = frozenset().union(*(some for many, some in [*by_texts, *alone] if many == width and some <= remarks[width]))
                 full = max([width] + [many for many, some, filled in counts if some and min(some) >= width > max(filled)])
                 strict = rows, Form(separator, decimal, full, known | frozenset(range(width, full)), width)
