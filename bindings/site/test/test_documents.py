@@ -47,7 +47,7 @@ class Documents(unittest.TestCase):
         self.assertTrue({"README.md", "bindings/cli/SCENE.md"} <= set(found))
 
     def test_links(self):
-        """Links of all documents lead to files of the repository and to headings, also where the site does not show them."""
+        """Links of all documents lead to files of the repository and to headings, also outside of the site."""
         listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=False)
         if listed.returncode != 0:
             self.skipTest("no clone of the repository")
@@ -58,16 +58,20 @@ class Documents(unittest.TestCase):
 
     def test_dead_links_of_documents(self):
         """What is dead is found: a file that is not there or not in the repository, a heading, a place outside."""
+        good = "[x](in/b.md#two-words-code) [y](in) [z](#a) [w](https://example.org)"
+        planted = {good: None, "[x](c.md)": "c.md is not there", "[x](in/b.md#three)": "in/b.md has no heading #three",
+                   "[x](#b)": "a.md has no heading #b", "[x](built.txt)": "built.txt is not in the repository",
+                   "[x][1]\n\n[1]: c.md": "c.md is not there", '![x](c.png "title")': "c.png is not there",
+                   "[x](../../etc)": "../../etc leads out of the repository",
+                   "[w](htps://example.org)": "htps://example.org: unknown scheme htps",
+                   "[w](https://)": "https://: no host"}
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             (root / "in").mkdir()
-            (root / "in/b.md").write_text("# B\n\n## Two words, `code`\n\n```text\n[no](link.md)\n```\n", encoding="utf-8")
+            other = "# B\n\n## Two words, `code`\n\n```text\n[no](link.md)\n```\n"
+            (root / "in/b.md").write_text(other, encoding="utf-8")
             (root / "built.txt").write_text("", encoding="utf-8")
-            for text, words in (("[x](in/b.md#two-words-code) [y](in) [z](#a) [w](https://example.org)", None), ("[x](c.md)", "c.md is not there"),
-                                ("[x](in/b.md#three)", "in/b.md has no heading #three"), ("[x](#b)", "a.md has no heading #b"),
-                                ("[x](built.txt)", "built.txt is not in the repository"), ("[x][1]\n\n[1]: c.md", "c.md is not there"),
-                                ("![x](c.png \"title\")", "c.png is not there"), ("[x](../../etc)", "../../etc leads out of the repository"),
-                                ("[w](htps://example.org)", "htps://example.org: unknown scheme htps"), ("[w](https://)", "https://: no host")):
+            for text, words in planted.items():
                 (root / "a.md").write_text(f"# A\n\n{text}\n", encoding="utf-8")
                 number, wrong = links.of_documents(root, ["a.md", "in/b.md"])
                 self.assertEqual([f"a.md: {words}"] if words else [], wrong, text)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks every link of the built site: files and places in them are there; addresses of hosts are well formed. The same of
-the documents of the repository, which people read without the site (of_documents).
+"""Checks every link of the built site: files and places in them are there; addresses of hosts are well formed. The same
+of the documents of the repository, which people read without the site (of_documents).
 
     links.py HTML [--least N]
 
@@ -78,13 +78,15 @@ def missing(folder, pages, path, address):
     return None
 
 
-WRITTEN = re.compile(r"""\]\(\s*<?([^()<>\s]+)>?(?:\s+"[^"]*")?\s*\)|^ {0,3}\[[^\]]+\]:\s*<?(\S+?)>?\s*$|<(https?:[^>\s]*)>""", re.M)
+# [words](link "title"), [words]: link in a line of its own, <https://host>
+WRITTEN = re.compile(r"""\]\(\s*<?([^()<>\s]+)>?(?:\s+"[^"]*")?\s*\)|"""
+                     r"^ {0,3}\[[^\]]+\]:\s*<?(\S+?)>?\s*$|<(https?:[^>\s]*)>", re.M)
 FENCED = re.compile(r"(?ms)^(`{3,}|~{3,}).*?^\1`*\s*$")
 SPAN = re.compile(r"(?<!`)(`+)(?!`)(?:(?!\1).)*?(?<!`)\1(?!`)")
 
 
 def of_document(root, name, files):
-    """The links of a document, and what is wrong with each of them or None. files: of the repository, with its folders."""
+    """The links of a document, and what is wrong with each of them or None. files: of the repository, with folders."""
     path = root / name
     text = FENCED.sub("", path.read_text(encoding="utf-8"))
     text = re.sub(r"(?m)^    .*$", "", text)
@@ -113,7 +115,8 @@ def of_documents(root, names):
     root = pathlib.Path(root).resolve()
     files = {pathlib.Path(name) for name in names}
     files |= {parent for name in files for parent in name.parents}
-    checked = [(name, trouble) for name in names if name.endswith(".md") for _, trouble in of_document(root, name, files)]
+    documents = [name for name in names if name.endswith(".md")]
+    checked = [(name, trouble) for name in documents for _, trouble in of_document(root, name, files)]
     return len(checked), [f"{name}: {trouble}" for name, trouble in checked if trouble]
 
 
