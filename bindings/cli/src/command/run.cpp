@@ -43,6 +43,7 @@ extern "C" std::int32_t on_progress(const char* stage, std::int64_t done, std::i
 struct Log {
     Progress& progress;
     const Model& model;
+    const Scene& scene;
     std::vector<std::string>* of_scene;  // keeps the warnings before the first step; null: there was one
 };
 
@@ -52,7 +53,7 @@ extern "C" void on_log(std::int32_t level, const char* text, void* user) {
     const Log& log = *static_cast<Log*>(user);
     if (level > 1) return;
     try {
-        const std::string said = said_of_scene(text, log.model);
+        const std::string said = with_elements(said_of_scene(text, log.model), {}, log.scene).message;
         if (level == 1 && log.of_scene != nullptr) log.of_scene->push_back(said);
         log.progress.note(fmt::format("{}: {}", level == 0 ? "error" : "warning", said));
     } catch (const std::exception&) {
@@ -456,7 +457,7 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
     const std::int64_t first = state ? state->state.step : 0;
     progress.begin_after(first);
     std::vector<std::string> warnings = warnings_of(model, scene);
-    Log log{progress, model, &warnings};
+    Log log{progress, model, scene, &warnings};
     delam_context_set_log(model.context.get(), on_log, &log);
     say("delam {} ({}): {}{}\n", delam_version(), delam_commit(), scene_file,
         scene.title.empty() ? "" : ", " + scene.title);
