@@ -6,7 +6,7 @@ import os
 import re
 
 from bar_deck import (ACROSS, CFRP, GLUE, HEIGHT, HELD, LENGTH, PULL, STEP, STIFFNESS, STRENGTH, SURFACES, THICKNESS, TOUGHNESS,
-                      YOUNG, bar, dissipated, pulled, row, stress)
+                      YOUNG, bar, dissipated, pulled, stress)
 from deck_runs import close, history, refused
 from support import delam, expect, expect_error, finish, folder, write
 
