@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decks in the dialects of preprocessors, each with something usual: the bar that is pulled apart, whose force is known."""
+"""Decks in the dialects of preprocessors, each with something usual: the bar that is pulled apart, whose force is known, and a
+beam that is split, whose energy is."""
 import re
 
 from bar_deck import (CFRP, GLUE, HELD, LENGTH, PULL, STEP, STIFFNESS, STRENGTH, SURFACES, THICKNESS, TOUGHNESS, YOUNG, bar,
@@ -209,7 +210,87 @@ def check_large_rotations():
     expect("[solver]" not in scene and "because thermal strains" in said, said)
 
 
+def alfano(columns):
+    """The double cantilever beam of Alfano and Crisfield (Int. J. Numer. Meth. Engng 50, 2001), 100 long with a crack of 30, as
+    older decks write it: corners, lines between them, rows between these, rows of elements."""
+    row, last = 1000, columns + 1
+    text = "*HEADING\n DELAMINATION OF A DOUBLE CANTILEVER BEAM\n*PREPRINT,ECHO=NO,MODEL=NO,HISTORY=NO\n"
+    for name, first, y in (("BOT", 1, 0.0), ("MIDB", 2 * row + 1, 1.5), ("MIDT", 10 * row + 1, 1.5), ("TOP", 12 * row + 1, 3.0)):
+        text += f"*NODE\n{first},0.,{y}\n{first + columns},100.,{y}\n*NGEN,NSET={name}\n{first},{first + columns},1\n"
+    text += f"*NFILL,NSET=LOWER\nBOT,MIDB,2,{row}\n*NFILL,NSET=UPPER\nMIDT,TOP,2,{row}\n"
+    for name, first, node in (("ARM1", 1, 1), ("ARM2", 10001, 10 * row + 1)):
+        text += (f"*ELEMENT,TYPE=CPE4I\n{first},{node},{node + 1},{node + row + 1},{node + row}\n"
+                 f"*ELGEN,ELSET={name}\n{first},{columns},1,1,2,{row},{columns}\n")
+    tip = 3 * columns // 10 + 1
+    text += (f"*ELEMENT,TYPE=COH2D4\n20001,{2 * row + tip},{2 * row + tip + 1},{10 * row + tip + 1},{10 * row + tip}\n"
+             f"*ELGEN,ELSET=ADHESIVE\n20001,{columns + 1 - tip},1,1\n")
+    text += "".join(f"*SOLID SECTION,ELSET={name},MATERIAL=A1,ORIENTATION=OR\n20.,\n" for name in ("ARM1", "ARM2"))
+    return text + f"""*ORIENTATION,NAME=OR,SYSTEM=RECTANGULAR
+1.,0.,0.,0.,1.,0.
+3,0.
+*COHESIVE SECTION,ELSET=ADHESIVE,MATERIAL=A2,RESPONSE=TRACTION SEPARATION,CONTROLS=VISCO,THICKNESS=SPECIFIED
+1.0,20.
+*SECTION CONTROLS,NAME=VISCO,VISCOSITY=1.E-5,ELEMENT DELETION=NO,MAX DEGRADATION=1.
+*MATERIAL,NAME=A1
+*ELASTIC,TYPE=ENGINEERING CONSTANTS
+135300.,9000.,9000.,0.24,0.24,0.46,5200.,5200.
+3080.,
+*MATERIAL,NAME=A2
+*ELASTIC,TYPE=TRACTION
+1.E5,1.E5,1.E5
+*DAMAGE INITIATION,CRITERION=QUADS
+20.,20.,20.
+*DAMAGE EVOLUTION,TYPE=ENERGY,MIXED MODE BEHAVIOR=POWER LAW,POWER=1.
+0.28,0.28,0.28
+*NSET,NSET=TIP1
+1,
+*NSET,NSET=TIP2
+{12 * row + 1},
+*NSET,NSET=FIX,GENERATE
+{last},{2 * row + last},{row}
+{10 * row + last},{12 * row + last},{row}
+*BOUNDARY
+FIX,1,2
+*AMPLITUDE,NAME=A
+0.,0.,1.,1.
+*STEP,NLGEOM,INC=1000
+ OPEN THE BEAM
+*STATIC
+.02,1.,1.E-8,.02
+*BOUNDARY,AMPLITUDE=A
+TIP1,2,2,-1.5
+TIP2,2,2,1.5
+*CONTROLS,ANALYSIS=DISCONTINUOUS
+*CONTROLS,PARAMETERS=TIME INCREMENTATION
+,,,,,,,10
+*MONITOR,NODE={12 * row + 1},DOF=2
+*PRINT,CONTACT=YES
+*OUTPUT,FIELD,FREQ=20
+*NODE OUTPUT
+U,RF
+*OUTPUT,HISTORY,FREQ=1
+*NODE OUTPUT,NSET=TIP2
+U2,RF2
+*NODE FILE,NSET=TIP2
+U,RF
+*END STEP
+"""
+
+
+def check_older_beam():
+    """Grows as beam theory says: Gc = 3 P w/(2 a) per width, with the length of the compliance, C = 8 a^3/(E' h^3)."""
+    rows, said, _ = history(alfano(200))
+    if not rows:
+        return
+    expect('kinematics = "corotational"' in said and "left out  *MONITOR" in said, f"said: {said[:900]}")
+    force, opening, height, stretch = 0.5 * rows[-1]["reaction"], 3.0, 1.5, 135300.0 / (1.0 - 0.24 ** 2 * 9000.0 / 135300.0)
+    length = (stretch * height ** 3 * opening / (8.0 * force)) ** (1.0 / 3.0)
+    expect(30.0 < length < 60.0, f"the crack grows from 30 to {length:.1f}")
+    close("energy release rate by beam theory", 3.0 * force * opening / (2.0 * length), 0.28, 0.02)
+
+
 for check in (check_filled, check_copied, check_exported_by_gmsh, check_two_sections, check_jumps_of_damage, check_in_the_mean,
-              check_rigid_motion, check_amplitudes, check_hypermesh, check_calculix, check_meshio, check_large_rotations):
+              check_rigid_motion, check_amplitudes, check_hypermesh, check_calculix, check_meshio, check_large_rotations,
+              check_older_beam):
     check()
 finish()

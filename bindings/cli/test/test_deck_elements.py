@@ -4,11 +4,40 @@ asks for and does not get is said in one run."""
 import json
 import os
 
+import decks
 from block_deck import COHESIVE, deck
 from deck_runs import refused
 from support import delam, expect, expect_error, finish, folder, write
 
 GOOD = "102, 103, 104, 109, 108\n"
+
+
+# A wedge beside a brick whose upper face goes round the wrong way.
+MIXED = """*Node
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 1., 1., 0.
+4, 0., 1., 0.
+5, 0., 0., 1.
+6, 1., 0., 1.
+7, 1., 1., 1.
+8, 0., 1., 1.
+9, 2., 0., 0.
+10, 2., 0., 1.
+*Element, type=C3D6, elset=E
+7, 2, 9, 3, 6, 10, 7
+*Element, type=C3D8, elset=E
+5, 1, 2, 3, 4, 5, 6, 8, 7
+*Solid section, elset=E, material=M
+*Material, name=M
+*Elastic
+1., 0.
+*Step
+*Static
+*Boundary
+1, 1, 3
+*End step
+"""
 
 
 def line_of(text, start):
@@ -35,6 +64,15 @@ def check_elements_of_decks():
     first, second = line_of(twice, GOOD.strip()), line_of(twice, "180, ")
     expect_error(delam("check", write(twice, "deck.inp")), 2, rf"deck\.inp:{first}: \*ELEMENT: ",
                  rf"elements 102 and 180 of .*deck\.inp:{second} lie on the same side .* they overlap")
+    # Elements of an instance, and of several types.
+    text = decks.parts(decks.Beam(nx=4, ny=0, nz=1))
+    lines = text.splitlines()
+    at = lines.index("*Element, type=CPE4I, elset=Arms") + 2
+    number, a, b, c, d = lines[at].split(", ")
+    lines[at] = ", ".join((number, a, b, d, c))
+    expect_error(delam("check", write("\n".join(lines) + "\n", "deck.inp")), 2,
+                 rf"deck\.inp:{at + 1}: \*ELEMENT: element Beam-1\.{number} \(body \"Beam-1\.Arms-1\"\)")
+    expect_error(delam("check", write(MIXED, "deck.inp")), 2, r"deck\.inp:15: \*ELEMENT: element 5 \(body")
     # The element beside a cohesive one, not the cohesive one, is wrong.
     text = deck().replace(GOOD, "102, 103, 109, 104, 108\n")
     refused(text, rf"deck\.inp:{line_of(text, '102, 103')}: \*ELEMENT: element 102 has the nodes of a face of element 202")

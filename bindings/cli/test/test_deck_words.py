@@ -51,6 +51,9 @@ for old, new, pattern in (
 _, said = imported(changed(PLAIN, ("*Cohesive Section", "*Section Controls, name=EC, max degradation=0.9\n*Cohesive Section")))
 expect("MAX DEGRADATION=0.9: damage goes to 1" in said, f"{said}")
 
+scene, said = imported(changed(PLAIN, ("*Cohesive Section", "*Transverse shear stiffness\n1., 1., 0.\n*Cohesive Section")))
+expect(bare(scene) == wanted and "solid cells shear by the moduli of their material" in said, f"{said}")
+
 # Pairs at the edge of cohesive elements have half a cell beyond it, which is told where it is much.
 for cells, much in ((4, True), (60, False)):
     code, said, error = delam("check", write(decks.abaqus(decks.Beam(nx=cells, ny=0, nz=1)), "deck.inp"))
