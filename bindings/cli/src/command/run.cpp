@@ -135,9 +135,9 @@ public:
             const std::int32_t status = delam_solver_advance(solver_.get(), time);
             if (status == DELAM_CANCELLED) return stopped(outcome);
             if (status != DELAM_OK && status != DELAM_NOT_CONVERGED) {
+                const std::string text = named(delam_context_message(model_.context.get()), scene_, model_);
                 outcome.reason = fmt::format("step {}, time {}: {} ({})", state_.step + 1, time,
-                                             named(delam_context_message(model_.context.get()), scene_, model_),
-                                             delam_status_name(status));
+                                             with_elements(text, {}, scene_).message, delam_status_name(status));
                 return status == DELAM_LIMIT ? exit_not_converged : exit_numerical;
             }
             to_the_end([this] { choose(); });
@@ -419,6 +419,11 @@ int analyse(const Analysis& of) {
             complain("delam: {} with: {}{}\n", done > 0 ? "go on" : "start again", again, done > 0 ? " --resume" : "");
         else
             complain("delam: {}\n", outcome.reason);
+        if (code != exit_interrupted && scene.imported && option_text(solver.get(), "kinematics") == "corotational")
+            complain(
+                "delam: with large rotations, NLGEOM=YES of the deck, an analysis may stop where small ones go on: "
+                "--set "
+                "solver.kinematics=linear\n");
         return code;
     }
     if (code == exit_not_converged)
