@@ -228,7 +228,10 @@ private:
     void add_link(std::int64_t i0, std::int64_t i1, double share, FrontPoint& out) const {
         if (adhesion(i0) == adhesion(i1)) return;
         if (undamaged(initial(i0), adhesion(i0)) && undamaged(initial(i1), adhesion(i1))) return;
-        add_closure(interface_, pair(i0), pair(i1), 0.5 * share, out.direction, out.rate);
+        Vector3 rate{};
+        add_closure(interface_, pair(i0), pair(i1), 0.5 * share, out.direction, rate);
+        out.rate[0] += rate[0];
+        out.rate[1] += rate[1] + rate[2];  // the tangents of curved interfaces turn from pair to pair
     }
 
     const CrackedInterface& interface_;

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "deck/abaqus/keywords.hpp"
 #include "deck/deck_bodies.hpp"
@@ -38,8 +37,10 @@ struct Held {
     double tolerance = 0;  // at which nodes match, over the shortest edge; 0: that of the scene
     bool open = false;     // surfaces, whose distance counts
     double adjust = 0;
-    bool bonded = false;  // tied
-    bool shared = false;  // bonded where the bodies share nodes
+    bool bonded = false;   // tied
+    bool shared = false;   // bonded where the bodies share nodes
+    std::string joined{};  // the set of these faces and others to which an equal section gives the law; empty: none
+    Vector shear_axis{1, 0, 0};  // projected: axis 1 of a law with two stiffnesses in shear
 };
 
 class Interfaces {
@@ -162,10 +163,16 @@ private:
             return;
         } else if (other->law.empty()) {
             *other = held;
+        } else if (other->law == held.law && !held.joined.empty() && other->joined == held.joined &&
+                   other->matching == held.matching) {
+            other->set = held.joined;
+            other->gap = std::max(other->gap, held.gap);
+            other->tolerance = std::max(other->tolerance, held.tolerance);
         } else if (other->law != held.law || other->set != held.set) {
             throw SceneFailure(held.place,
-                               fmt::format("{} and {} are held together by {} already: an interface has one "
-                                           "law and one set",
+                               fmt::format("{} and {} are held together by {} already: an interface has one law, of "
+                                           "one set or of sections that say the same; give the cells on one side of "
+                                           "each part an *ELSET and a *SOLID SECTION of their own",
                                            body(held.a), body(held.b), other->place.text()));
         }
     }
@@ -193,27 +200,11 @@ private:
                                         const Place& section) const {
         const std::vector<std::int32_t> bodies = faces_.of(upper ? set.upper[element] : set.lower[element]);
         if (bodies.size() == 1) return bodies[0];
-        const Face& first = set.lower[element];
-        const auto [scope, at] = cohesive_element(model_, {first.begin(), std::find(first.begin(), first.end(), -1)});
-        if (at == nullptr) throw SceneFailure(section, fmt::format("\"{}\" has a face at no body", set.name));
-        const std::string name =
-            fmt::format("element {} of \"{}\"", full_name(*scope, std::to_string(at->id)), set.name);
-        if (!bodies.empty())
-            throw SceneFailure(at->place, fmt::format("{} has a face between {} and {}: its nodes must be those of one "
-                                                      "of them",
-                                                      name, body(bodies[0]), body(bodies[1])));
-        std::vector<std::int64_t> nodes, better;
-        for (const std::int64_t id : at->nodes) nodes.push_back(node_number(*scope, id, at->place));
-        for (const std::size_t k : faces_.order_by_sides(nodes)) better.push_back(at->nodes[k]);
-        throw SceneFailure(
-            at->place,
-            fmt::format("{} has a face that is no side of a cell: the first half of its nodes is one face, the second "
-                        "half the other{}",
-                        name, better.empty() ? "" : fmt::format("; write {}, {}", at->id, fmt::join(better, ", "))));
+        refuse_face(model_, mesh_, faces_, {&set, element, upper}, section);
     }
 
     void add_cohesive(const CohesiveSet& set) {
-        const Section* found = cohesive_sections_.of(set.name).section;
+        const auto [found, scope] = cohesive_sections_.of(set.name);
         if (found == nullptr)
             throw SceneFailure(model_.file,
                                fmt::format("the cohesive elements \"{}\" have no *COHESIVE SECTION", set.name));
@@ -227,10 +218,7 @@ private:
             const bool tied = !set.apart.empty() && set.apart[i] >= 0;
             const double gap = tied ? set.apart[i] : gap_of(set.lower[i], set.upper[i]);
             if (a == b && (tied || gap > 1e-6 * edge_))
-                throw SceneFailure(section.place,
-                                   fmt::format("an element of \"{}\" lies within {}, and its faces are {:.6g} apart: "
-                                               "within one body the nodes of both faces coincide; {}",
-                                               set.name, body(a), gap, sections_of_one_side));
+                refuse_thick(model_, mesh_, faces_, {&set, i, false}, gap, section.place);
             loose = loose || tied;
             sum += gap;
             least = std::min(least, gap);
@@ -249,9 +237,7 @@ private:
                                                           "thick: one law has one stiffness; give a section to each",
                                                           least, most));
         const std::string law = laws_.of_material(material, thickness);
-        if (!section.orientation.empty() && laws_.two_shears(law))
-            throw SceneFailure(section.place,
-                               "ORIENTATION with two stiffnesses in shear is not imported: give shear_axis");
+        const Vector axis = laws_.two_shears(law) ? shear_axis(section, *scope) : Vector{1, 0, 0};
         for (const auto& [bodies, gap] : gaps) {
             const bool apart = gap > 1e-6 * edge_;
             // The nodes of both sides belong together, and no others are as near.
@@ -261,6 +247,8 @@ private:
                                                     paired ? "the nodes of its two sides are paired"
                                                            : "the faces beside it are projected upon each other"));
             Held held{bodies.first, bodies.second, law, set.faces, 0.0, (paired || !apart) && !loose, section.place};
+            held.shear_axis = axis;
+            held.joined = set.joined;
             if (paired)
                 held.tolerance = allowance * gap / edge_;
             else if (apart)
@@ -272,6 +260,19 @@ private:
                 fmt::format("\"{}\" is tied: the bodies to which it is tied have its law between them, on their own "
                             "faces where its elements lie",
                             set.name));
+    }
+
+    // Axis 1 of the orientation of a section, projected; without one, x.
+    [[nodiscard]] Vector shear_axis(const Section& section, const Part& scope) const {
+        if (section.orientation.empty()) return {1, 0, 0};
+        const Orientation& o = orientation_of(deck_, section);
+        if (o.of_each_element())
+            throw SceneFailure(section.place,
+                               fmt::format("ORIENTATION={} differs from element to element, and an interface has one "
+                                           "first axis of shear: give one orientation",
+                                           section.orientation));
+        const Vector axis = o.axes(o.points, {}, o.place)[0];
+        return section.part.empty() ? axis : turned_by(scope, axis);
     }
 
     [[nodiscard]] std::string faces_named(const Entry& raw) const {
@@ -442,7 +443,9 @@ private:
         out += held.bonded        ? "bonded = true\n"
                : held.law.empty() ? "contact = true\n"
                                   : fmt::format("law = {}\n", toml_text(held.law));
-        if (laws_.two_shears(held.law)) out += "shear_axis = [1, 0, 0]  # x projected: axis 1 of the deck\n";
+        if (laws_.two_shears(held.law))
+            out += fmt::format("shear_axis = {}  # projected: axis 1 of the deck\n",
+                               toml_list(std::vector<double>(held.shear_axis.begin(), held.shear_axis.end())));
         if (held.shared) out += "shared = \"bonded\"\n";
         if (!held.matching) out += "projected = true\n";
         if (held.tolerance > 0) out += fmt::format("tolerance = {}\n", toml_number(held.tolerance));

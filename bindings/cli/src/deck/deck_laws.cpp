@@ -43,7 +43,12 @@ void require_positive(const Numbers& values, std::size_t count, const char* what
         if (!(values[i] > 0)) throw SceneFailure(place, fmt::format("{} {}: must be > 0", what, values[i]));
 }
 
-// The toughness of a mode of peak `strength`.
+// Returns the peak of a mode that *DAMAGE INITIATION gives as a stress, a nominal strain or a jump.
+double peak_of(const std::string& initiation, double value, double stiffness, double thickness) {
+    return initiation.back() == 'S' ? value : value * stiffness * (initiation.back() == 'E' ? thickness : 1.0);
+}
+
+// A mode by its stiffness and its peak, `strength`.
 struct Mode {
     double stiffness;
     double strength;
@@ -273,9 +278,8 @@ std::string kind_of(const std::string& name, const DamageCards& damage, std::vec
 void require_one_shear(const Numbers& stiffness, const DamageCards& cards, std::int32_t dimension) {
     if (!shears_differ(stiffness, dimension))
         return require_isotropic(cards.strengths, cards.initiation.c_str(), dimension, cards.initiation_place);
-    const bool strains = cards.initiation.back() == 'E';
     const auto onset = [&](std::size_t m) {
-        const double peak = cards.strengths[m] * (strains ? stiffness[m] : 1.0);
+        const double peak = peak_of(cards.initiation, cards.strengths[m], stiffness[m], 1.0);
         return peak / stiffness[m] * peak / 2;
     };
     const double first = onset(1), second = cards.strengths.size() > 2 ? onset(2) : HUGE_VAL;
@@ -303,10 +307,9 @@ std::string law_text(const std::string& name, const Numbers& stiffness, double t
     require_positive(stiffness, sheared ? 3 : 2, "stiffness", place);
     require_positive(cards.strengths, 2, cards.initiation.c_str(), cards.initiation_place);
     require_one_shear(stiffness, cards, dimension);
-    const bool strains = cards.initiation.back() == 'E';
     Mode modes[2];
     for (std::size_t m = 0; m < 2; ++m)
-        modes[m] = {stiffness[m], cards.strengths[m] * (strains ? stiffness[m] * thickness : 1.0)};
+        modes[m] = {stiffness[m], peak_of(cards.initiation, cards.strengths[m], stiffness[m], thickness)};
     const DamageCards damage = cards.mixed_mode == "TABULAR" ? with_criterion(name, cards, modes, changed) : cards;
     const Numbers toughness = toughness_of(name, damage, modes, dimension, changed);
     require_positive(toughness, 2, "toughness", damage.evolution_place);
