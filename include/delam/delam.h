@@ -295,13 +295,17 @@ DELAM_API int32_t delam_mesh_add_conforming_cells(delam_mesh *mesh, int32_t cell
  *   2-node edges      trapezoidal rule
  *   3-node edges      Simpson's rule
  *   faces             vertex rule
- *   6-node triangles  vertex rule on four triangles
- *   8-node faces      vertex rule on four corner triangles and the quadrilateral of the mid-side nodes
- * All weights are positive; their sum is the size of the interface. On faces of tet10 and hex20 the weights are not
- * proportional to the nodal forces of a uniform traction. Under such a traction, the pairs of a stiff interface at
- * mid-side nodes carry up to 1.3 times (tet10) or 1.6 times (hex20) that traction. The pairs at corner nodes carry none
- * or are in closed contact.
- * The pairs are sorted by coordinates, x first.
+ *   9-node faces      Simpson's rule in both directions
+ *   6-node triangles and 8-node faces (tet10, hex20, wedge15)  integrals of modified shape functions, see below
+ * All weights are positive; their sum is the size of the interface. A uniform traction on the pairs has its exact nodal
+ * forces on plane faces with straight sides and mid-side nodes in their middle, and its exact resultant on all faces.
+ * On 6-node triangles and 8-node faces, no positive weights at the nodes give these forces. A pair at a mid-side node m
+ * between the corners c and d therefore compares u_m + s (2 u_m - u_c - u_d) of both sides, not u_m. s is 1/8 on
+ * triangles, 1/4 on 8-node faces and on sides where both meet, and larger on distorted faces with too light corners.
+ * Such a pair has two tied nodes, which the function appends (delam_mesh_node_ties). They belong to no body, and their
+ * originals are those of the mid-side nodes (delam_mesh_node_origins). Where displacements are linear along the side,
+ * the value is that at m. If none of these openings is negative, the nodes do not penetrate either.
+ * The pairs are sorted by coordinates of the nodes, x first.
  * [unit tolerance 1 in [0, 0.5); null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double tolerance,
                                            int64_t *out_interface);
@@ -369,14 +373,13 @@ DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t b
 /* Adds an interface between two bodies, a = body_a and b = body_b, whose meshes do not match. Pairs, weights, faces,
  * order, normals, gap and errors are those of delam_mesh_add_projected_interface. However, each node of b's faces is
  * paired with a mean over a's faces, and either body may have the finer mesh. *out_interface receives its index.
- * The tied node of a pair has the displacement sum_i M_i u_i over nodes of a. The M_i project a's displacement onto
- * the shape functions of b's faces (L2 projections over the segments in which faces of both bodies meet). Their sum is
- * 1, and some may be negative. Linear displacements are continuous across a perfect bond. Between plane faces a
- * perfect bond transfers a uniform traction exactly. A law and contact do so unless b consists of tet10 or hex20. The
- * weights of these are not proportional to the nodal forces. On faces that are no parallelograms the integrals have
- * relative errors of about 1e-12. Contact holds in the mean: where b is coarser than a, nodes of a between those of b
- * may penetrate. A face of b that is within gap of a in one part, and farther from it elsewhere, is paired as a whole.
- * delam_problem_check refuses pairs farther apart than gap, unless their gaps count (delam_problem_set_gaps).
+ * The tied node of a pair has the displacement sum_i M_i u_i over nodes of a. The M_i project a's displacement onto the
+ * shape functions of b's faces (L2 projections over the segments in which faces of both bodies meet). Their sum is 1,
+ * and some may be negative. Linear displacements are continuous across a perfect bond. Between plane faces a perfect
+ * bond transfers a uniform traction exactly. So do a law and contact. On faces that are no parallelograms the integrals
+ * have relative errors of about 1e-12. Contact holds in the mean: where b is coarser than a, nodes of a between those
+ * of b may penetrate. A face of b that is within gap of a in one part, and farther from it elsewhere, is paired as a
+ * whole. delam_problem_check refuses pairs farther apart than gap, unless their gaps count (delam_problem_set_gaps).
  * [unit gap L >= 0; null none; status cancelled, argument, mesh; source B. Wohlmuth, SIAM J. Numer. Anal. 38 (2000)
  * 989-1012; since 0.2] */
 DELAM_API int32_t delam_mesh_add_mortar_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double gap,
@@ -390,6 +393,8 @@ DELAM_API int32_t delam_mesh_add_mortar_interface(delam_mesh *mesh, int32_t body
  *   weights  [count] > 0, length (2D) or area (3D) that each pair represents
  * weights NULL: the function computes them as delam_mesh_add_interface does, from boundary faces of the body. These are
  * the faces that face the obstacle and have all their nodes in the list. Each node of the list must lie on such a face.
+ * Pairs with an obstacle have the nodes themselves. 6-node triangles and 8-node faces therefore count as linear pieces
+ * between their nodes (vertex rule), and the weights are not proportional to the nodal forces of a uniform pressure.
  * [unit normals 1 finite (not 0), weights L or L2 > 0; null weights; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_obstacle(delam_mesh *mesh, int64_t count, const int64_t *nodes, const double *normals,
                                           const double *weights, int64_t control_node, int32_t index_base,
@@ -433,11 +438,13 @@ DELAM_API int32_t delam_mesh_nodes(const delam_mesh *mesh, int64_t capacity, dou
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_node_bodies(const delam_mesh *mesh, int64_t capacity, int32_t *bodies);
 /* Returns the original of each node, origins: [node_count]. The original of a copy is the node from which
- * delam_mesh_add_conforming_cells made it; every other node is its own original.
+ * delam_mesh_add_conforming_cells made it, and that of a tied node beside a mid-side node is the latter's. Every other
+ * node is its own original.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_node_origins(const delam_mesh *mesh, int64_t capacity, int64_t *origins);
-/* Returns the tied nodes (delam_mesh_add_projected_interface, delam_mesh_add_mortar_interface,
- * delam_mesh_add_self_contact) in ascending order. *count and *entries receive the numbers of tied nodes and of
+/* Returns the tied nodes in ascending order: those of delam_mesh_add_projected_interface,
+ * delam_mesh_add_mortar_interface and delam_mesh_add_self_contact, and those of pairs at mid-side nodes of tet10, hex20
+ * and wedge15 (delam_mesh_add_interface). *count and *entries receive the numbers of tied nodes and of
  * weights. The arrays are nodes [count], starts [count+1], of and weights [entries]. The displacement of nodes[i] is
  * the sum of weights[e] times the displacement of node of[e], over e = starts[i] .. starts[i+1]-1. The weights of a
  * tied node sum to 1; some may be negative.

@@ -85,15 +85,25 @@ std::vector<double> face_gaps(const Mesh& mesh, const InterfaceGeometry& interfa
         const auto found = arcs.find(node);
         return found == arcs.end() ? 0.0 : found->second;
     };
-    std::map<std::int64_t, double> tied;  // by tied node: the largest arc at the nodes to which it is tied
-    for (const NodeTie& tie : mesh.ties())
-        for (const auto& [node, weight] : tie.of) tied[tie.node] = std::max(tied[tie.node], arc_at(node));
+    // The map has, by tied node, the largest arc at the nodes to which it is tied. Where it stands for a mid-side node,
+    // it counts with the sum of the coefficients.
+    std::map<std::int64_t, double> tied;
+    for (const NodeTie& tie : mesh.ties()) {
+        double highest = 0.0, size = 0.0;
+        for (const auto& [node, weight] : tie.of) {
+            highest = std::max(highest, arc_at(node));
+            size += std::abs(weight);
+        }
+        tied[tie.node] = mesh.node_origin(tie.node) == tie.node ? highest : size * highest;
+    }
     const double least = seven_digits * mesh.size();
     std::vector<double> gaps = pair_distances(mesh, interface);
     for (std::size_t p = 0; p < gaps.size(); ++p) {
-        const std::int64_t a = interface.node_a[p], b = interface.node_b[p];
-        const auto below = tied.find(a);
-        const double unknown = arc_at(b) + (below == tied.end() ? arc_at(a) : below->second);
+        double unknown = 0.0;
+        for (const std::int64_t node : {interface.node_b[p], interface.node_a[p]}) {
+            const auto found = tied.find(node);
+            unknown += found == tied.end() ? arc_at(node) : found->second;
+        }
         if (std::abs(gaps[p]) <= std::max(least, unknown)) gaps[p] = 0.0;
     }
     return gaps;

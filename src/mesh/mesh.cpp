@@ -314,7 +314,8 @@ void Mesh::add_host_body(std::int32_t label, std::span<const std::int64_t> nodes
     for (const std::int64_t node : nodes) node_label_[index(node)] = label;
 }
 
-std::int64_t Mesh::append(InterfaceGeometry interface, std::vector<NodeTie> ties, std::span<const double> places) {
+std::int64_t Mesh::append(InterfaceGeometry interface, std::vector<NodeTie> ties, std::span<const double> places,
+                          std::span<const std::int64_t> originals) {
     nodes_.reserve(nodes_.size() + places.size());
     node_label_.reserve(node_label_.size() + ties.size());
     node_origin_.reserve(node_origin_.size() + ties.size());
@@ -323,9 +324,10 @@ std::int64_t Mesh::append(InterfaceGeometry interface, std::vector<NodeTie> ties
     interfaces_.push_back(std::move(interface));
     // From here on nothing can fail.
     nodes_.insert(nodes_.end(), places.begin(), places.end());
-    for (NodeTie& t : ties) {
+    for (std::size_t i = 0; i < ties.size(); ++i) {
+        NodeTie& t = ties[i];
         node_label_.push_back(reserved);
-        node_origin_.push_back(t.node);
+        node_origin_.push_back(i < originals.size() && originals[i] >= 0 ? originals[i] : t.node);
         next_copy_.push_back(-1);
         ties_.push_back(std::move(t));
     }

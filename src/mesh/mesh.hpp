@@ -39,8 +39,9 @@ public:
     // A body without cells, whose stiffness the host gives.
     void add_host_body(std::int32_t label, std::span<const std::int64_t> nodes);
     // Appends an interface that pairing/interfaces.hpp has made, with tied nodes and their places; returns its index.
+    // originals: of tied nodes that stand for others (rule/mid_sides.hpp), -1: itself; empty: all themselves.
     std::int64_t append(InterfaceGeometry interface, std::vector<NodeTie> ties = {},
-                        std::span<const double> places = {});
+                        std::span<const double> places = {}, std::span<const std::int64_t> originals = {});
     // Appends all of them or, when memory ends, none.
     void append_all(std::vector<InterfaceGeometry>& interfaces);
     // Makes a node of no body the control node of an obstacle, which no body takes any more.
@@ -71,7 +72,7 @@ public:
     bool host_body(std::int32_t body) const;
     // Body index of a node, -1 for a node of none.
     std::int32_t node_body(std::int64_t node) const;
-    // The node that a node was doubled from, itself otherwise.
+    // The node that a node was doubled from, or for which it stands in a pair; itself otherwise.
     std::int64_t node_origin(std::int64_t node) const { return node_origin_[index(node)]; }
     // Nodes of a body, ascending.
     std::vector<std::int64_t> body_nodes(std::int32_t body) const;

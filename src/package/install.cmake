@@ -6,11 +6,13 @@ install(TARGETS delam EXPORT delam LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} C
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/delam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.h" PATTERN petsc.h EXCLUDE)
-# The contract, and the documents that the header names, under the paths that it gives.
+# The contract, the documents that the header names, under the paths that it gives, and what these documents link.
 install(FILES ${PROJECT_SOURCE_DIR}/include/GLOSSARY.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/include
         COMPONENT development)
 foreach(document capi/CONTRACT.md reduction/README.md reduction/NOTES.md reduction/condensed/README.md
-                 evolution/README.md evolution/NOTES.md)
+                 reduction/dense/README.md reduction/feti/README.md reduction/sparse/engine/README.md
+                 reduction/sparse/iterated/README.md reduction/sparse/iterated/NOTES.md evolution/README.md
+                 evolution/NOTES.md evolution/increment/README.md evolution/step/README.md)
   get_filename_component(folder src/${document} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/src/${document} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}
           COMPONENT development)

@@ -223,6 +223,49 @@ TEST(mixed_mode_growth) {
     expect(seen > 3.0, "it has grown");
 }
 
+namespace {
+
+double mean_rate(const reference::Solver& solver) {
+    const auto fronts = crack_fronts(solver);
+    expect(fronts.size() == 1 && !fronts[0].closed, "one front from side to side");
+    double sum = 0.0, width = 0.0;
+    for (const FrontPoint& point : fronts[0].points) {
+        sum += point.length * point.total();
+        width += point.length;
+    }
+    return fronts[0].points.size() == 1 ? fronts[0].points[0].total() : sum / width;
+}
+
+}  // namespace
+
+// A sharp front in cells as large as an arm is high, on interfaces from soft to all but rigid: G is the geometric mean
+// of what the energy falls by if the front advances from a cell behind to its place, and to a cell ahead. With such
+// cells a rigid interface presses ahead of the tip, and its contact closes the crack as the tractions do.
+LOOP_TEST(quadratic_cells_at_a_sharp_front, 0, 12) {
+    const std::int32_t cells[] = {DELAM_QUAD8, DELAM_HEX20, DELAM_TET10, DELAM_WEDGE15};
+    const double stiffnesses[] = {1e12, 1e14, 1e17};
+    const double k = stiffnesses[loop / 4];
+    Dcb d;
+    d.h = 2e-3, d.length = 50e-3, d.notch = 20e-3, d.opening = 0.02e-3, d.nu = 0.0;
+    d.law = {k, k, 1e6, 1e6, 2e6, 2e6};
+    d.cell = cells[loop % 4];
+    d.width = loop % 4 > 0 ? 12e-3 : 0.0;
+    d.across = 2;
+    d.through = 1;
+    double energy[3], rate = 0.0;
+    for (int at = 0; at < 3; ++at) {
+        const reference::Scene scene = make_dcb(d, d.notch + (at - 1) * d.h);
+        reference::Solver solver(scene, 0.0);
+        solver.step(1.0);
+        energy[at] = stored(solver);
+        if (at == 1) rate = mean_rate(solver);
+    }
+    const double swept = d.h * (d.width > 0.0 ? d.width : 1.0);
+    const double mean = std::sqrt((energy[0] - energy[1]) * (energy[1] - energy[2])) / swept;
+    std::printf("cell %d, k %.0e: G / falls of energy %.4f\n", d.cell, k, rate / mean);
+    expect_near(rate, mean, 0.02, mean, "G of a sharp front");
+}
+
 // A wide DCB in space: the plane values at mid-width; without Poisson effect, everywhere.
 LOOP_TEST(dcb_in_space, 0, 3) {
     if (loop == 0 && !cases::whole()) return;  // no Poisson effect

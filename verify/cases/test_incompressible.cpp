@@ -127,8 +127,8 @@ double bending(const Case& e, const char* formulation, double nu, std::int64_t a
     scene.require(delam_problem_set_formulation(scene.problem(), -1, formulation), "formulation");
     scene.bonded(0);
     const auto load = scene.pattern("bend", {0.0, 1.0}, {0.0, kappa});
-    for (std::size_t n = 0; n < scene.node_count(); ++n) {
-        const auto node = static_cast<std::int64_t>(n);
+    for (const std::int64_t node :
+         scene.find(-1, std::vector<double>(size(d), -1.0), std::vector<double>(size(d), 11.0))) {
         const double x = scene.coordinate(node, 0), y = scene.coordinate(node, d - 1);
         std::vector<double> along(size(d), 0.0), up(size(d), 0.0);
         along[0] = up[size(d - 1)] = 1.0;

@@ -21,11 +21,6 @@ bool in_plane(std::int32_t cell) {
            cell == DELAM_QUAD9;
 }
 
-// On the faces of tet10 and hex20 the forces of a uniform traction are not proportional to any positive nodal weights
-// (a corner gets none, or one of the opposite sign): the traction of the pairs scatters around the exact one within a
-// cell, which makes the interface softer by about 0.2 h/E.
-bool scatters(std::int32_t cell) { return cell == DELAM_TET10 || cell == DELAM_HEX20; }
-
 // Two blocks without lateral contraction, the lower face fixed, the upper one driven by `w` along the stack. With
 // `redundant` supports both nodes of the pairs at the rim are held sideways.
 Scene stack(std::int32_t cell, double k, double w, bool hold_below, bool redundant) {
@@ -75,21 +70,18 @@ LOOP_TEST(tension_at_any_stiffness, 0, 9) {
             const double t = w / (height / young + 1.0 / k);
             const auto d = static_cast<std::size_t>(scene.dimension());
             const std::string where = "k " + std::to_string(k) + ": ";
-            if (scatters(cells[loop])) {
-                const double force = t * area(cells[loop]);
-                cases::expect_near(state.pattern[0], force, 0.1, force, where + "reaction");
-                continue;
-            }
             for (std::size_t i = 0; i < state.jump.size(); ++i) {
                 const double exact = i % d == 0 ? t : 0.0;
                 cases::expect_near(state.traction[i], exact, 1e-12, t, where + "traction");
                 cases::expect_near(state.jump[i], exact / k, 1e-12, t / k, where + "jump");
             }
             const double force = t * area(cells[loop]);
-            cases::expect_near(state.pattern[0], force, 1e-12, force, where + "reaction");
+            // The nodal forces of 20-node bricks have both signs: their sum has more rounding.
+            const double rounding = cells[loop] == DELAM_HEX20 ? 2e-12 : 1e-12;
+            cases::expect_near(state.pattern[0], force, rounding, force, where + "reaction");
             const double work = 0.5 * force * w;
             const double bulk = work * (t / w) * height / young;
-            cases::expect_near(state.stored_bulk, bulk, 1e-12, work, where + "stored in the bulk");
+            cases::expect_near(state.stored_bulk, bulk, rounding, work, where + "stored in the bulk");
             const double spring = work * (t / w) / k;
             cases::expect_near(state.stored_interface, spring, 1e-12, spring, where + "stored in the interface");
         }
@@ -104,11 +96,6 @@ LOOP_TEST(compression_closes, 0, 9) {
         DirectReference direct(scene);
         const auto state = direct.solve(1.0, std::vector<double>(scene.pair_count(), adhesion));
         const double pressure = -w * young / height;
-        if (scatters(cells[loop])) {
-            cases::expect_near(state.pattern[0], -pressure * area(cells[loop]), 0.1, pressure * area(cells[loop]),
-                               "reaction");
-            continue;
-        }
         const auto d = static_cast<std::size_t>(scene.dimension());
         for (std::size_t p = 0; p < state.contact.size(); ++p) {
             cases::expect(state.contact[p], "closed");

@@ -87,12 +87,14 @@ void Scene::require(std::int32_t status, const char* call) const {
 std::int64_t Scene::all_interfaces() {
     std::int64_t count = -1;
     require(delam_mesh_add_all_interfaces(mesh(), 0.0, &count), "delam_mesh_add_all_interfaces");
+    adopt_mesh();
     return count;
 }
 
 std::int64_t Scene::interface(std::int32_t body_a, std::int32_t body_b) {
     std::int64_t index = -1;
     require(delam_mesh_add_interface(mesh(), body_a, body_b, 0.0, &index), "delam_mesh_add_interface");
+    adopt_mesh();
     return index;
 }
 

@@ -14,6 +14,7 @@
 #include "evolution/increment/gradient.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/pairing/interfaces.hpp"
+#include "mesh/rule/mid_sides.hpp"
 
 namespace unit {
 
@@ -55,7 +56,8 @@ inline SparseMatrix stiffness_of(const Mesh& mesh) { return surface_stiffness(me
 
 inline Numbers field(const Mesh& mesh, const std::function<double(const Point&)>& f) {
     Numbers z;
-    for (const std::int64_t node : interface_of(mesh).node_a) {
+    for (const std::int64_t of_pair : interface_of(mesh).node_a) {
+        const std::int64_t node = node_of_pair(mesh, of_pair);
         Point x{};
         std::copy(mesh.node(node).begin(), mesh.node(node).end(), x.begin());
         z.push_back(f(x));

@@ -22,7 +22,7 @@ struct Bed {
     using Function = std::function<double(double, double)>;
     Mesh mesh;
     Law law;
-    std::vector<double> initial, adhesion, jump;
+    std::vector<double> initial, adhesion, jump, force;
 
     explicit Bed(Mesh made) : mesh(std::move(made)) {
         law.normal_stiffness = 3.0;
@@ -52,8 +52,15 @@ struct Bed {
             jump[p * dim + 1] = tangential(place(p)[0], place(p)[1]);
         }
     }
-    CrackedInterface interface() const { return {mesh, geometry(), law, initial, adhesion, jump}; }
-    std::vector<CrackFront> fronts() const { return crack_fronts(interface()); }
+    // The forces are those of the law at the jumps and adhesion of now.
+    CrackedInterface interface() {
+        const auto dim = static_cast<std::size_t>(mesh.dimension());
+        force.resize(jump.size());
+        for (std::size_t i = 0; i < jump.size(); ++i)
+            force[i] = geometry().weight[i / dim] * adhesion[i / dim] * law.stiffness(i % dim) * jump[i];
+        return {mesh, geometry(), law, initial, adhesion, jump, force};
+    }
+    std::vector<CrackFront> fronts() { return crack_fronts(interface()); }
 };
 
 struct Kind {

@@ -316,15 +316,15 @@ TEST(weights_of_quadratic_faces) {
     }
     const InterfaceGeometry square = weights_of(CellType::hex20, {});
     ck_assert_int_eq(square.nodes_per_face, 8);
-    const Numbers expected{1.0 / 24, 5.0 / 24, 1.0 / 24, 5.0 / 24, 5.0 / 24, 1.0 / 24, 5.0 / 24, 1.0 / 24};
+    const Numbers expected{1.0 / 36, 2.0 / 9, 1.0 / 36, 2.0 / 9, 2.0 / 9, 1.0 / 36, 2.0 / 9, 1.0 / 36};
     for (std::size_t p = 0; p < 8; ++p) ck_assert(std::abs(square.weight[p] - expected[p]) < 1e-15);
     const InterfaceGeometry triangle = weights_of(CellType::tet10, {});
     ck_assert_int_eq(triangle.nodes_per_face, 6);
     ck_assert(std::abs(sum(triangle.weight) - 1.0) < 1e-14);
-    for (std::size_t p = 0; p < 9; ++p) {  // corners 1/24 of a triangle of area 1/2, middles 1/8; diagonal pairs twice
-        const double w = triangle.weight[p] * 24.0;
-        ck_assert(std::abs(w - 1) < 1e-13 || std::abs(w - 2) < 1e-13 || std::abs(w - 3) < 1e-13 ||
-                  std::abs(w - 6) < 1e-13);
+    for (std::size_t p = 0; p < 9; ++p) {  // corners 1/30 of a triangle of area 1/2, middles 2/15; diagonal pairs twice
+        const double w = triangle.weight[p] * 30.0;
+        ck_assert(std::abs(w - 1) < 1e-13 || std::abs(w - 2) < 1e-13 || std::abs(w - 4) < 1e-13 ||
+                  std::abs(w - 8) < 1e-13);
     }
     for (const CellType type : {CellType::tet10, CellType::hex20}) {
         const InterfaceGeometry warped = weights_of(type, [](std::span<double> x) {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Numbers of a sheet that are possible and that no usual specimen has: a prefix too many or too few."""
 
-from specimens.usual import TOUGHNESS
+from specimens.usual import ARM, E1, LENGTH, TOUGHNESS, WIDTH
 
 LAMINATES, FIBRES = ("dcb", "adcb", "enf", "4enf", "mmb", "slb", "laminate"), ("fibre",)
 BEAMS = LAMINATES[:-1]
@@ -11,14 +11,14 @@ BEAMS = LAMINATES[:-1]
 ROWS = (
     (("GIc", "GIIc"), LAMINATES, "J/m2", 1e3, TOUGHNESS, (40, 6e3)),
     (("GIc", "GIIc"), FIBRES, "J/m2", 1e3, (0.05, 2e3), (0.5, 300)),
-    (("E1",), LAMINATES, "GPa", 1e-3, (2, 1000), (10, 600)),
+    (("E1",), LAMINATES, "GPa", 1e-3, (2, 1000), E1),
     (("E2", "G12"), LAMINATES, "GPa", 1e-3, (0.2, 120), (1, 90)),
     (("fibre-young",), FIBRES, "GPa", 1e-3, (1, 2000), (10, 900)),
     (("young",), LAMINATES + FIBRES, "GPa", 1e-3, (0.05, 1000), (0.5, 400)),
     (("normal-strength", "shear-strength"), LAMINATES + FIBRES, "MPa", 1.0, (0.5, 800), (3, 200)),
-    (("arm", "lower-arm"), BEAMS, "mm", 1.0, (0.1, 50), (0.4, 20)),
-    (("width",), BEAMS, "mm", 1.0, (1, 300), (5, 100)),
-    (("notch", "half-span", "lever", "inner-span"), BEAMS, "mm", 1.0, (2, 1000), (10, 300)),
+    (("arm", "lower-arm"), BEAMS, "mm", 1.0, (0.1, 50), ARM),
+    (("width",), BEAMS, "mm", 1.0, (1, 300), WIDTH),
+    (("notch", "half-span", "lever", "inner-span"), BEAMS, "mm", 1.0, (2, 1000), LENGTH),
     (("ply",), ("laminate",), "mm", 1.0, (0.005, 10), (0.02, 3)),
     (("radius",), FIBRES, "um", 1e3, (0.2, 500), (1, 100)),
     (("strain",), ("laminate", "fibre"), "%", 1e2, (0.01, 50), (0.1, 20)),

@@ -34,11 +34,11 @@ def thicknesses(of):
 ROWS = (
     ("dcb", "ASTM D5528", "a width of 20 to 25 mm; it is {width:g} mm", lambda of: between(of.width, 20, 25)),
     ("dcb", "ASTM D5528, ISO 15024", "a thickness of {thinnest:.2g}{thickest}, both arms together, for this toughness and notch; "
-     "it is {thickness:g} mm", lambda of: between(of.thickness, *thicknesses(of))),
+     "it is {thickness:g} mm{meant}", lambda of: between(of.thickness, *thicknesses(of))),
     ("dcb", "ASTM D5528, ISO 15024", "a notch of about 50 mm from the load; it is {notch:g} mm",
      lambda of: between(of.notch, 45, 55)),
     ("enf", "ASTM D7905", "a width of 19 to 26 mm; it is {width:g} mm", lambda of: between(of.width, 19, 26)),
-    *((kind, ASKED[kind][0], f"a thickness of {ASKED[kind][1]:g} to {ASKED[kind][2]:g} mm, both arms together; it is {{thickness:g}} mm",
+    *((kind, ASKED[kind][0], f"a thickness of {ASKED[kind][1]:g} to {ASKED[kind][2]:g} mm, both arms together; it is {{thickness:g}} mm{{meant}}",
        lambda of: between(of.thickness, *ASKED[of.kind][1:])) for kind in ("enf", "mmb")),
     ("enf", "ASTM D7905", "a half span of 50 mm; it is {half_span:g} mm", lambda of: between(of.half_span, 50, 50)),
     ("enf", "ASTM D7905", "a notch of 30 mm from the support; it is {notch:g} mm{stable}", lambda of: between(of.notch, 29, 31)),
@@ -61,12 +61,13 @@ STABLE = 3 ** (-1 / 3)
 
 
 def warnings(of):
-    low, high = thicknesses(of) if of.kind == "dcb" else (0, 0)
+    low, high = thicknesses(of) if of.kind == "dcb" else ASKED[of.kind][1:] if of.kind in ASKED else (0, 0)
+    slip = next((of.arm * factor for factor in (0.1, 10) if between(of.thickness * factor, low, high)), None)
     mmb = mmb_notches(of) if of.kind == "mmb" else (0, 0)
     noses = between_noses(of) if of.kind == "4enf" else (0, 0)
     stable = of.kind == "enf" and of.notch >= STABLE * of.half_span
     facts = {**vars(of), "thinnest": low, "thickest": " mm at least" if math.isinf(high) else f" to {high:g} mm",
-             "end": of.notch + of.growth, "mmb_least": mmb[0], "mmb_most": mmb[1],
+             "end": of.notch + of.growth, "meant": f": --arm {slip:g}mm may be meant" if slip else "", "mmb_least": mmb[0], "mmb_most": mmb[1],
              "stable": ", from which the crack grows stably, as that of the standard does not" if stable else "",
              "mixity": beams.growth(of, of.notch)[2], "outside": noses[0], "inside": noses[1]}
     return [f"{standard} asks for {text.format(**facts)}" for kind, standard, text, good in ROWS

@@ -70,7 +70,7 @@ def evaluate_one(given):
         for answer in found.answers:
             rows += [f"{answer.name},{1e3 * w:.9g},{1e3 * a:.9g},{g:.9g}" for w, a, g in zip(answer.where, answer.crack, answer.rate)]
         write_file(os.path.join(given.out, "r-curve.csv"), "\n".join(rows) + "\n")
-        draw(given.out, TITLES[given.test], found.curve, found.answers, found.points, bands)
+        draw(given.out, TITLES[given.test], found.curve, found.answers, found.points, bands, found.intervals, given.confidence)
     say(f"wrote {given.out}: {', '.join(NAMES)}" + (", in the place of an earlier evaluation" if replaced else ""))
     return DONE
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The evaluation of one specimen: its curve, its sheet, and what each method of the standard says at each point, with
 intervals."""
+import os
+
 import numpy as np
 
 from command import Trouble, complain
@@ -10,8 +12,8 @@ from scatter.intervals import lines as interval_lines
 from scatter.spread import OfMarks, OfScatter, OfSlope
 from specimens import methods
 from specimens.answer import Answer
-from specimens.checks import (complain_of_offsets, complain_of_spread, complain_of_toughness, require_lengths,
-                              require_marks, said_of_marks)
+from specimens.checks import (complain_of_growth, complain_of_offsets, complain_of_opening, complain_of_spread,
+                              complain_of_toughness, require_lengths, require_marks, said_of_marks)
 from specimens.curve import Curve
 from specimens.points import Points
 from specimens.sheet import require_growing, require_modulus, sheet_of
@@ -38,8 +40,8 @@ def evaluate_dcb(curve, sheet, given, checks=True):
     marks = points.without_noise(curve.marks)
     if checks:
         require_lengths(curve, sheet, given)
-        points.modulus = require_modulus(lambda one: methods.dcb_modulus(points.compliance, one)[0], points.compliance, sheet, curve, "dcb")
-        require_marks(marks, curve, points, sheet, given, lambda compliance, one: methods.dcb_modulus(compliance, one)[0])
+        points.modulus = require_modulus(lambda c, one: methods.dcb_modulus(c, one)[0], points.compliance, sheet, curve, "dcb")
+        require_marks(marks, curve, points, sheet, given, lambda c, one: methods.dcb_modulus(c, one)[0])
     answers, offset = [], 0.0
     if len(marks) >= LEAST_MARKS:
         d, p, a = marks[:, 0] - points.zero, marks[:, 1], marks[:, 2]
@@ -59,7 +61,18 @@ def evaluate_dcb(curve, sheet, given, checks=True):
     crack, rate = methods.dcb_effective(points.compliance, sheet, offset)
     answers.append(points.along("effective crack", crack, rate))
     points.place_cracks(sheet["notch"], marks)
+    if checks:
+        cracks = np.array([(p.displacement - points.zero, p.crack) for p in points.points] + [(row[0] - points.zero, row[2]) for row in marks])
+        complain_of_opening(curve.path, *cracks.T)
     return answers, points
+
+
+def calibration_curve(word, given):
+    """The curve of a file at another crack length. word: FILE, or FILE:TEST where the file has several tests."""
+    path, _, test = word.rpartition(":")
+    if os.path.lexists(word) or not os.path.lexists(path):
+        return Curve(word, given, "", "")
+    return Curve(path, given, "", test)
 
 
 def calibrated(curve, points, sheet, given):
@@ -69,9 +82,10 @@ def calibrated(curve, points, sheet, given):
         length, sign, path = word.partition("=")
         read = quantity(length, "length")
         if read is None or not read[1] or not sign:
-            raise Trouble(f"--calibration {word[:60]}: LENGTH=FILE is expected, such as 20mm=a20.csv")
+            raise Trouble(f"--calibration {word[:60]}: LENGTH=FILE is expected, such as 20mm=a20.csv, or LENGTH=FILE:TEST, such as "
+                          "20mm=all.csv:2, with the name or the number of one of the tests of a file")
         if word not in given.read:
-            given.read[word] = Curve(path, given, "")
+            given.read[word] = calibration_curve(path, given)
         other = given.read[word]
         cracks.append(read[0] * kind_of(read[1])[1])
         for k, known in enumerate(cracks[:-1]):
@@ -93,7 +107,7 @@ def calibrated(curve, points, sheet, given):
 def evaluate_enf(curve, sheet, given, checks=True):
     points = Points(curve.displacement, curve.load, curve.path)
     if checks:
-        points.modulus = require_modulus(lambda one: methods.enf_modulus(points.compliance, one)[0], points.compliance, sheet, curve, "enf")
+        points.modulus = require_modulus(lambda c, one: methods.enf_modulus(c, one)[0], points.compliance, sheet, curve, "enf")
     answers = calibrated(curve, points, sheet, given) if checks else []
     if "G13" not in sheet:
         complain("warning: effective crack: without --G13 the shear of the beam counts as crack if --E1 is given (these values are "
@@ -114,8 +128,8 @@ def evaluate_mmb(curve, sheet, given, checks=True):
     marks = points.without_noise(curve.marks)
     if checks:
         require_lengths(curve, sheet, given)
-        points.modulus = require_modulus(lambda one: methods.mmb_modulus(points.compliance, chi, one), points.compliance, sheet, curve, "mmb")
-        require_marks(marks, curve, points, sheet, given, lambda compliance, one: methods.mmb_modulus(compliance, chi, one))
+        points.modulus = require_modulus(lambda c, one: methods.mmb_modulus(c, chi, one), points.compliance, sheet, curve, "mmb")
+        require_marks(marks, curve, points, sheet, given, lambda c, one: methods.mmb_modulus(c, chi, one))
     if len(marks):
         points.add_visual(marks, np.flatnonzero(marks[:, 2] > sheet["notch"])[0])
     points.place_cracks(sheet["notch"], marks)
@@ -127,8 +141,10 @@ def evaluate_mmb(curve, sheet, given, checks=True):
     one, two = both(rows[:, 1], rows[:, 2])
     numbers = {"chi": chi, "bending modulus": modulus, "mode II share": float(two[0] / (one[0] + two[0]))}
     grown = np.flatnonzero(marks[:, 2] > 1.0001 * sheet["notch"]) if len(marks) else ()
+    crack, rate = methods.mmb_effective(points.compliance, chi, sheet)
     return [Answer("beam theory with corrections", rows[:, 0], rows[:, 2], one + two, lambda d, p, a: sum(both(p, a)), numbers,
-                   grown, OfScatter(marks, one + two, points, grown) if len(marks) else None, rows[:, 1])], points
+                   grown, OfScatter(marks, one + two, points, grown) if len(marks) else None, rows[:, 1]),
+            points.along("effective crack", crack, rate)], points
 
 
 TESTS = {"dcb": evaluate_dcb, "enf": evaluate_enf, "mmb": evaluate_mmb}
@@ -185,6 +201,7 @@ class Evaluation:
         self.table = at_points(self.answers, self.points, self.curve.path)
         complain_of_offsets({answer.name: answer.numbers for answer in self.answers}, self.sheet, self.points.modulus)
         complain_of_spread(self.table)
+        complain_of_growth(self.curve, self.points)
         complain_of_toughness(self.table, self.curve)
         self.intervals = intervals(self.curve, self.answers, self.points, again, given.confidence)
 

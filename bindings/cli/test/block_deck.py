@@ -1,10 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A deck of two blocks of an elastic material upon each other, whose answers are known in closed form, and its runs."""
-import csv
-import math
-import os
-
-from support import delam, expect, expect_error, folder, write
+import deck_runs
 
 YOUNG, POISSON, STRENGTH, STIFFNESS = 1000.0, 0.3, 1.0, 1000.0
 
@@ -36,26 +32,6 @@ def deck(cohesive=True, extra="", elastic=f"*Elastic\n{YOUNG}, {POISSON}\n", sta
 
 
 def history(text, *words):
-    place = folder()
-    out = os.path.join(place, "out")
-    code, said, error = delam("run", write(text, "deck.inp", place), "--out", out, *words)
-    expect(code == 0, f"exit {code}: {error.strip()[:300]}")
-    if code != 0:
-        return [], said + error
-    with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
-        return [{k: float(v) for k, v in row.items() if k not in ("solution", "mixity_rule")}
-                for row in csv.DictReader(file)], said + error
-
-
-def imported(text):
-    code, scene, said = delam("import", write(text, "deck.inp"))
-    expect(code == 0, f"import: exit {code} {said.strip()[:300]}")
-    return scene, said
-
-
-def refused(text, *patterns):
-    expect_error(delam("import", write(text, "deck.inp")), 2, *patterns)
-
-
-def close(what, found, wanted, allowed=1e-9):
-    expect(math.isclose(found, wanted, rel_tol=allowed, abs_tol=1e-14), f"{what}: {found}, {wanted} is expected")
+    """Rows of history.csv, and what is said."""
+    rows, said, _ = deck_runs.history(text, *words)
+    return rows, said

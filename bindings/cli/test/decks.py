@@ -122,7 +122,7 @@ def resin(initiation="QUADS", evolution=None, thickness=""):
 def opened(displacement, steps, plane, boundary="*Boundary\n"):
     """Both arms are moved apart; in the plane the second axis is that across."""
     across = 2 if plane else 3
-    return (f"*Step, name=Open, nlgeom=YES, inc=1000\n*Static\n{1 / steps}, 1., 1e-9, {1 / steps}\n"
+    return (f"*Step, name=Open, nlgeom=NO, inc=1000\n*Static\n{1 / steps}, 1., 1e-9, {1 / steps}\n"
             f"{boundary}Top, {across}, {across}, {displacement}\nBottom, {across}, {across}, {-displacement}\n"
             "*Output, field, variable=PRESELECT\n*Restart, write, frequency=0\n*End Step\n")
 

@@ -6,7 +6,8 @@ import math
 import os
 import re
 
-from support import delam, expect, expect_error, finish, folder, write
+from deck_runs import history, refused
+from support import delam, expect, finish, folder, write
 
 E1, E2, NU12, G12 = 100.0, 10.0, 0.25, 7.0
 STRAIN, SIDE = 0.001, 0.5
@@ -54,26 +55,11 @@ def deck(plane, orientation, moved=False, section="", more=""):
             f"{own}Top, {dof}, {dof}, {sign * STRAIN * SIDE}\n*End step\n")
 
 
-def history(text):
-    place = folder()
-    out = os.path.join(place, "out")
-    code, said, error = delam("run", write(text, "deck.inp", place), "--out", out)
-    expect(code == 0, f"exit {code}: {error.strip()[:400]}")
-    if code != 0:
-        return [], said + error
-    with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file)), said + error
-
-
 def stored(what, text, wanted):
-    rows, said = history(text)
+    rows, said, _ = history(text)
     found = float(rows[-1]["stored_bulk"]) if rows else math.nan
     expect(math.isclose(found, wanted, rel_tol=1e-9), f"{what}: {found} is stored, {wanted} is expected")
     return said
-
-
-def refused(text, *patterns):
-    expect_error(delam("import", write(text, "deck.inp")), 2, *patterns)
 
 
 def orientation(first, second="", system=""):
@@ -117,8 +103,8 @@ def check_distributions():
                               energy(plane, angles))
                 expect('each as *DISTRIBUTION "D" has it' in said, f"the axes are told: {said[:600]}")
             # The digits of one orientation.
-            whole, _ = history(deck(plane, orientation(direction(30)), moved, of_section))
-            cells, _ = history(deck(plane, distributed(f", {direction(30)}\n"), moved, of_section))
+            whole, _, _ = history(deck(plane, orientation(direction(30)), moved, of_section))
+            cells, _, _ = history(deck(plane, distributed(f", {direction(30)}\n"), moved, of_section))
             for key in ("reaction", "stored_bulk"):
                 expect([row[key] for row in whole] == [row[key] for row in cells], f"{plane=} {moved=}: equal axes, {key}")
 

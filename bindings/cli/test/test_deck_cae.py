@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A deck of two instances of one part as Abaqus/CAE writes it, in the variants that people make: each has the answer of the
 plain one, or is told in one line, with the line of the deck, what to do."""
-import csv
 import json
 import math
 import os
 
+import deck_runs
 from support import delam, expect, expect_error, finish, folder, write
 
 NODES = "".join(f"{1 + i + 5 * j:7d}, {float(i):12.5f}, {float(j):12.5f}\n" for j in (0, 1) for i in range(5))
@@ -85,14 +85,8 @@ _Up_S1, S1
 
 
 def history(text):
-    place = folder()
-    out = os.path.join(place, "out")
-    code, said, error = delam("run", write(text, "deck.inp", place), "--out", out)
-    expect(code == 0, f"exit {code}: {error.strip()[:400]}")
-    if code != 0:
-        return [], said + error
-    with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
-        return [float(line["reaction"]) for line in csv.DictReader(file)], said + error
+    rows, said, _ = deck_runs.history(text)
+    return [row["reaction"] for row in rows], said
 
 
 def independent(text):

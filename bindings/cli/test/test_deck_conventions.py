@@ -1,103 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Whole decks as their writers write them: a bar of two blocks that is pulled apart, by twenty conventions with one answer,
-and a double cantilever beam as Abaqus/CAE writes it, with a cohesive layer that is meshed apart and tied.
-
-The bar is 2 long and 2 high; its force per length is known in closed form (`stress`)."""
-import csv
+and a double cantilever beam as Abaqus/CAE writes it, with a cohesive layer that is meshed apart and tied."""
 import math
 import os
 import re
 
+from bar_deck import (ACROSS, CFRP, GLUE, HEIGHT, HELD, LENGTH, PULL, STEP, STIFFNESS, STRENGTH, SURFACES, THICKNESS, TOUGHNESS,
+                      YOUNG, bar, dissipated, pulled, stress)
+from deck_runs import close, history, refused
 from support import delam, expect, expect_error, finish, folder, write
-
-HEIGHT, LENGTH, THICKNESS, YOUNG, ACROSS = 2.0, 2.0, 2.0, 70000.0, 9000.0
-STIFFNESS, STRENGTH, TOUGHNESS, PULL = 1e6, 30.0, 0.25, 0.01
-
-CFRP = f"*MATERIAL, NAME=CFRP\n*DENSITY\n1.6e-9,\n*ELASTIC\n{YOUNG}, 0.3\n"
-GLUE = f"""*MATERIAL, NAME=GLUE
-*ELASTIC, TYPE=TRACTION
-{STIFFNESS}, {STIFFNESS}, {STIFFNESS}
-*DAMAGE INITIATION, CRITERION=QUADS
-{STRENGTH}, 60., 60.
-*DAMAGE EVOLUTION, TYPE=ENERGY, MIXED MODE BEHAVIOR=BK, POWER=1.75
-{TOUGHNESS}, 0.8, 0.8
-*DAMAGE STABILIZATION
-1e-5
-"""
-HELD = "BOTTOM, YSYMM\nLEFT, XSYMM\n"
-STEP = f"*STEP\n*STATIC\n0.1, 1.\n*BOUNDARY\n{HELD}TOP, 2, 2, {PULL}\n*END STEP\n"
-SURFACES = "*SURFACE, NAME=BELOW, TYPE=ELEMENT\nA2, S3\n*SURFACE, NAME=ABOVE, TYPE=ELEMENT\nB1, S1\n"
-
-
-def stress(pulled, young=YOUNG, opened=0.0):
-    """The stress of the bar, and the jump: opened is the largest jump before, which damaged the glue."""
-    compliance, first, last = HEIGHT / young, STRENGTH / STIFFNESS, 2.0 * TOUGHNESS / STRENGTH
-    softening = STRENGTH / (last - first)
-    secant = STIFFNESS if opened <= first else softening * (last - opened) / opened
-    found = pulled / (compliance + 1.0 / secant)
-    jump = pulled - found * compliance
-    if jump > max(first, opened):
-        found = softening * (last - pulled) / (1.0 - softening * compliance)
-        jump = pulled - found * compliance
-    return found, jump
-
-
-def dissipated(jump):
-    """Per area: what was put in, less what is given back along the secant."""
-    first, last = STRENGTH / STIFFNESS, 2.0 * TOUGHNESS / STRENGTH
-    now = STRENGTH * (last - jump) / (last - first)
-    return 0.5 * STRENGTH * first + 0.5 * (STRENGTH + now) * (jump - first) - 0.5 * now * jump
-
-
-def row(first, y, number):
-    """Nodes first to first + 2 at the height y."""
-    return "".join(f"{first + i}, {i:.1f}, {y:.1f}\n" for i in range(number))
-
-
-def bar(cell="CPS4", glue=True, section=None, cohesive="RESPONSE=TRACTION SEPARATION\n,2.\n", material=CFRP, law=GLUE,
-        before="", after=STEP, mesh=None):
-    """Nodes 1 to 9 and 101 to 109, cells 1 to 4 and 11 to 14 (rows A1, A2, B1, B2), cohesive elements 21 and 22."""
-    text = "*HEADING\na bar\n** of two blocks\n" + before
-    if mesh is None:
-        mesh = "*NODE, NSET=ALL\n" + "".join(row(start + 3 * j, 0.5 * j + start // 100, 3)
-                                            for start in (1, 101) for j in range(3))
-        for name, start, number in (("A1", 1, 1), ("A2", 4, 3), ("B1", 101, 11), ("B2", 104, 13)):
-            mesh += f"*ELEMENT, TYPE={cell}, ELSET={name}\n" + "".join(
-                f"{number + i}, {start + i}, {start + i + 1}, {start + i + 4}, {start + i + 3}\n" for i in range(2))
-        mesh += "*ELSET, ELSET=A\nA1, A2\n*ELSET, ELSET=B\nB1, B2\n"
-    text += mesh
-    if glue:
-        text += "*ELEMENT, TYPE=COH2D4, ELSET=G\n21, 7, 8, 102, 101\n22, 8, 9, 103, 102\n"
-        text += f"*COHESIVE SECTION, ELSET=G, MATERIAL=GLUE, {cohesive}"
-    text += section or "".join(f"*SOLID SECTION, ELSET={name}, MATERIAL=CFRP\n{THICKNESS},\n" for name in "AB")
-    text += material + law
-    text += "*NSET, NSET=BOTTOM\n1, 2, 3\n*NSET, NSET=TOP, GENERATE\n107, 109, 1\n*NSET, NSET=LEFT\n1, 4, 7, 101, 104, 107\n"
-    return text + after
-
-
-def history(text, name="deck.inp", **others):
-    """Rows of history.csv; others: files beside the deck, by name."""
-    place = folder()
-    for other, words in others.items():
-        write(words, other.replace("_", "."), place)
-    out = os.path.join(place, "out")
-    code, said, error = delam("run", write(text, name, place), "--out", out)
-    expect(code == 0, f"exit {code}: {error.strip()[:400]}")
-    if code != 0:
-        return [], said + error, out
-    with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
-        return [{key: float(value) for key, value in line.items() if key not in ("solution", "mixity_rule")}
-                for line in csv.DictReader(file)], said + error, out
-
-
-def close(what, found, wanted, allowed=1e-9):
-    expect(math.isclose(found, wanted, rel_tol=allowed, abs_tol=1e-12), f"{what}: {found}, {wanted} is expected")
-
-
-def pulled(what, text, young=YOUNG, **others):
-    rows, _, _ = history(text, **others)
-    if rows:
-        close(what, rows[-1]["reaction"], LENGTH * stress(PULL, young)[0])
 
 
 def check_ways_to_write():
@@ -116,8 +27,9 @@ def check_ways_to_write():
 def check_meshes_that_are_generated():
     nodes = "*NODE\n1, 0., 0.\n3, 2., 0.\n7, 0., 2.\n9, 2., 2.\n"
     copied = ("*NGEN, NSET=LOW\n1, 3, 1\n*NGEN, NSET=HIGH\n7, 9, 1\n")
-    expect_error(delam("import", write(bar(mesh=nodes + copied + "*NFILL, NSET=BLOCK\nLOW, HIGH, 2, 3\n"), "deck.inp")), 2,
-                 r"\*NFILL", r"\*NGEN")
+    for wrong, pattern in (("LOW, MIDDLE, 2, 3", '"MIDDLE" is not there'), ("LOW, ALONE, 2, 3", '"LOW" has 3 nodes, "ALONE" has 1'),
+                           ("LOW, HIGH, 2, 1", "occurs twice"), ("LOW, HIGH", "intervals and an increment")):
+        refused(bar(mesh=nodes + copied + f"*NSET, NSET=ALONE\n1\n*NFILL, NSET=BLOCK\n{wrong}\n"), r"deck\.inp:\d+: \*NFILL", pattern)
     rows = "".join(f"*NODE\n{a}, 0., {y}\n{a + 2}, 2., {y}\n*NGEN\n{a}, {a + 2}, 1\n"
                    for a, y in ((1, 0), (4, 1), (7, 1.5), (101, 1.5), (104, 1.75), (107, 2)))
     cells = ("*ELEMENT, TYPE=CPS4, ELSET=A\n1, 1, 2, 5, 4\n*ELGEN, ELSET=A\n1, 2, 1, 1, 2, 3, 2\n"
@@ -138,13 +50,12 @@ def check_materials():
                 + "".join(f"*SOLID SECTION, ELSET={name}, MATERIAL=CFRP, CONTROLS=EC-1\n{THICKNESS},\n" for name in "AB"))
     pulled("section controls, reduced integration", bar(cell="CPS4R", section=controls))
     pulled("a power law", bar(law=GLUE.replace("BK, POWER=1.75", "POWER LAW, POWER=1.")))
-    refused = {"SOFTENING=TABULAR": GLUE.replace("TYPE=ENERGY, MIXED MODE BEHAVIOR=BK, POWER=1.75",
+    others = {"SOFTENING=TABULAR": GLUE.replace("TYPE=ENERGY, MIXED MODE BEHAVIOR=BK, POWER=1.75",
                                                  "TYPE=DISPLACEMENT, SOFTENING=EXPONENTIAL").replace(
                                                      f"{TOUGHNESS}, 0.8, 0.8", "0.02, 2.")}
-    for words, law in refused.items():
-        expect_error(delam("import", write(bar(law=law), "deck.inp")), 2, words)
-    expect_error(delam("import", write(bar(cohesive="RESPONSE=CONTINUUM\n,2.\n"), "deck.inp")), 2, "RESPONSE=CONTINUUM",
-                 "TRACTION SEPARATION")
+    for words, law in others.items():
+        refused(bar(law=law), words)
+    refused(bar(cohesive="RESPONSE=CONTINUUM\n,2.\n"), "RESPONSE=CONTINUUM", "TRACTION SEPARATION")
 
 
 def check_loads():

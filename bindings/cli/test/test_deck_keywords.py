@@ -3,7 +3,8 @@
 import math
 import os
 
-from block_deck import (LAW, NODES, POISSON, SECTION, STIFFNESS, SURFACES, YOUNG, close, deck, history, imported, refused)
+from block_deck import LAW, NODES, POISSON, SECTION, STIFFNESS, SURFACES, YOUNG, deck, history
+from deck_runs import close, imported, refused
 from support import delam, expect, expect_error, finish, folder, write
 
 

@@ -110,25 +110,31 @@ expect(code == 0, f"two stiffnesses in shear: {said}")
 for key, value in (("tangential_stiffness", 400.0), ("second_tangential_stiffness", 225.0), ("tangential_onset", 0.005)):
     found = re.search(rf"^{key} = (\S+)", scene, re.M)
     expect(found and math.isclose(float(found.group(1)), value, rel_tol=1e-12), f"{key} in\n{scene}")
-expect("shear_axis = [1, 0, 0]" in scene, f"the axis of the first shear in\n{scene}")
-# The upper block slides between both shears, beyond the onset.
+expect("shear_axis = [1.0, 0.0, 0.0]" in scene, f"the axis of the first shear in\n{scene}")
+# The upper block slides between both shears, beyond the onset; with an orientation whose axis 1 is y, the first is along y.
 ENERGY, ONSET, TOUGHNESS = 0.02, 0.005, 1.0  # Y = (Kss u_s^2 + Ktt u_t^2)/2
 slip = math.sqrt(2 * ENERGY / (400 * 0.36 + 225 * 0.64))
-moved = "".join(f"{node}, 1, 3\n" for node in range(1, 9)) + "".join(
-    f"{node}, 1, 1, {0.6 * slip!r}\n{node}, 2, 2, {0.8 * slip!r}\n{node}, 3, 3\n" for node in range(11, 19))
-where, out = os.path.join(folder(), "scene.toml"), os.path.join(folder(), "out")
-sliding = TWICE.replace("*BOUNDARY\n1, 1, 3\n2, 2, 3\n", "*BOUNDARY\n" + moved)
-for words in (("import", write(sliding, "deck.inp"), "--out", where), ("run", where, "--out", out)):
-    code, _, said = delam(*words)
-    expect(code == 0, f"{words[0]}: {said}")
-with open(os.path.join(out, "history.csv"), encoding="utf-8", newline="") as file:
-    last = list(csv.DictReader(file))[-1]
 zeta = (TOUGHNESS * math.sqrt(ONSET / ENERGY) - ONSET) / (TOUGHNESS - ONSET)
 spent = TOUGHNESS * ONSET * (1 - zeta) / (ONSET + (TOUGHNESS - ONSET) * zeta)
-for column, value in (("stored_interface", zeta * ENERGY), ("dissipated", spent)):
-    expect(math.isclose(float(last[column]), value, rel_tol=1e-9), f"{column} {last[column]} instead of {value}")
-for evolution, section in (("*DAMAGE EVOLUTION, TYPE=DISPLACEMENT\n1.,\n", ""), (ONE, ", ORIENTATION=TURNED")):
-    text = deck(evolution, stiffness=SHEARS, strengths="1.5, 2., 1.5", solid=True)
-    text = text.replace("RESPONSE=TRACTION SEPARATION", "RESPONSE=TRACTION SEPARATION" + section)
-    expect_error(delam("import", write(text, "deck.inp")), 2, r"deck\.inp:\d+: ", "two stiffnesses in shear")
+TURNED = "*ORIENTATION, NAME=TURNED\n0., 1., 0., -1., 0., 0.\n"
+for turned, along, across in ((False, 0.6, 0.8), (True, 0.8, 0.6)):
+    moved = "".join(f"{node}, 1, 3\n" for node in range(1, 9)) + "".join(
+        f"{node}, 1, 1, {along * slip!r}\n{node}, 2, 2, {across * slip!r}\n{node}, 3, 3\n" for node in range(11, 19))
+    where, out = os.path.join(folder(), "scene.toml"), os.path.join(folder(), "out")
+    sliding = TWICE.replace("*BOUNDARY\n1, 1, 3\n2, 2, 3\n", "*BOUNDARY\n" + moved)
+    if turned:
+        sliding = sliding.replace("*COHESIVE SECTION", TURNED + "*COHESIVE SECTION, ORIENTATION=TURNED")
+    for words in (("import", write(sliding, "deck.inp"), "--out", where), ("run", where, "--out", out)):
+        code, _, said = delam(*words)
+        expect(code == 0, f"{words[0]}: {said}")
+    with open(os.path.join(out, "history.csv"), encoding="utf-8", newline="") as file:
+        last = list(csv.DictReader(file))[-1]
+    for column, value in (("stored_interface", zeta * ENERGY), ("dissipated", spent)):
+        expect(math.isclose(float(last[column]), value, rel_tol=1e-9), f"{column} {last[column]} instead of {value}")
+text = deck("*DAMAGE EVOLUTION, TYPE=DISPLACEMENT\n1.,\n", stiffness=SHEARS, strengths="1.5, 2., 1.5", solid=True)
+expect_error(delam("import", write(text, "deck.inp")), 2, r"deck\.inp:\d+: ", "two stiffnesses in shear")
+for card, pattern in (("", "\"TURNED\" is not there"), ("*ORIENTATION, NAME=TURNED, SYSTEM=CYLINDRICAL\n0., 0., 0., 0., 0., 1.\n",
+                                                       "differs from element to element")):
+    text = TWICE.replace("*COHESIVE SECTION", card + "*COHESIVE SECTION, ORIENTATION=TURNED")
+    expect_error(delam("import", write(text, "deck.inp")), 2, r"deck\.inp:\d+: \*COHESIVE SECTION", pattern)
 finish()

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Words of decks: keywords, parameters and values may be abbreviated; a word that is not known is refused with the line
 and what is near; what nothing uses is left out."""
+import deck_runs
 import decks
-from support import delam, expect, expect_error, finish, write
+from deck_runs import refused
+from support import delam, expect, finish, write
 
 PLAIN = decks.abaqus(decks.Beam(nx=4, ny=0, nz=1))
 PAIR = decks.surfaces(decks.Beam(nx=4, ny=0, nz=1), initial=True)
 
 
 def imported(text):
-    code, scene, said = delam("import", write(text, "deck.inp"))
-    expect(code == 0, f"import: exit {code} {said.strip()[:300]}")
+    """The scene without its first line, which names the deck, and what is said."""
+    scene, said = deck_runs.imported(text)
     return scene.split("\n", 1)[-1], said
 
 
@@ -19,10 +21,6 @@ def changed(text, *pairs):
         assert old in text, old
         text = text.replace(old, new, 1)
     return text
-
-
-def refused(text, *patterns):
-    expect_error(delam("import", write(text, "deck.inp")), 2, *patterns)
 
 
 def bare(scene):
@@ -41,7 +39,7 @@ for old, new, pattern in (
         ("*Elastic, type=ENG", "*Elastc, type=ENG", r"unknown keyword \(did you mean 'ELASTIC'"),
         ("*Boundary", "*End", "END"), ("mixed mode behavior", "mo", r"the parameter MO is not read"),
         ("*Static\n", "*Static, drect\n", r"DRECT is not read \(did you mean 'DIRECT'"),
-        ("*Static\n", "*Static,\n", "is not read"), ("criterion=QUADS", "criterion=MAX", "MAXS, QUADS, MAXE or QUADE is"),
+        ("*Static\n", "*Static,\n", "is not read"), ("criterion=QUADS", "criterion=MAX", "MAXS, QUADS, MAXE, QUADE, MAXU or QUADU is"),
         ("*Static\n", "*Output\n", r"\*STEP: the step has no procedure"),
         ("\n1, ", "\n0, ", r"node 0: its number must be > 0"), ("type=CPE4I, elset=Arms\n1,", "type=CPE4I, elset=Arms\n-1,",
                                                              "element -1: its number must be > 0"),
@@ -52,6 +50,9 @@ for old, new, pattern in (
     refused(changed(PLAIN, (old, new)), r"deck\.inp:\d+: \*", pattern)
 _, said = imported(changed(PLAIN, ("*Cohesive Section", "*Section Controls, name=EC, max degradation=0.9\n*Cohesive Section")))
 expect("MAX DEGRADATION=0.9: damage goes to 1" in said, f"{said}")
+
+scene, said = imported(changed(PLAIN, ("*Cohesive Section", "*Transverse shear stiffness\n1., 1., 0.\n*Cohesive Section")))
+expect(bare(scene) == wanted and "solid cells shear by the moduli of their material" in said, f"{said}")
 
 # Pairs at the edge of cohesive elements have half a cell beyond it, which is told where it is much.
 for cells, much in ((4, True), (60, False)):

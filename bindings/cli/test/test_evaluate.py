@@ -168,6 +168,16 @@ def flexure():
     code, shown, error = start(*words, "--out", out)
     expect(code == 0 and "two more crack lengths; 0 given" in error and "effective crack" in shown, f"without calibration: {error}")
     expect("zero:" not in shown, "a line that begins at 0 is not told")
+    expect("the curve ends at its largest load, still on its initial line" in error, f"a crack that is not seen to grow is told: {error}")
+    # All lengths in one file, as machines write them: tests by their names or numbers.
+    whole = os.path.join(here, "all.csv")
+    with open(whole, "w", encoding="utf-8") as file:
+        file.write("\n".join(f"Specimen,CC {1e3 * a:.0f}\n" + read(files[a]).decode().split("\n", 1)[1] for a in files))
+    same = [*words[:2], whole, *words[3:], "--specimen", "CC 30", "--out", out, "--replace"]
+    code, shown, error = start(*same, "--calibration", f"20mm={whole}:CC 20", "--calibration", f"40mm={whole}:3")
+    expect(code == 0 and abs(evaluated(out)["toughness"]["compliance calibration"]["max"] / 700 - 1) < 1e-4, f"in one file: {shown} {error}")
+    expect_error(start(*same, "--calibration", f"20mm={whole}"), 2, f"has 3 tests: .*: --calibration LENGTH={whole}:1, for example, takes the first")
+    expect_error(start(*same, "--calibration", f"20mm={whole}:CC 50"), 2, 'there is no specimen "CC 50": the file has 3 tests')
     w, p = bent(0.03, 0.05)
     slack = raw(os.path.join(here, "slack.csv"), ["Deflection (mm)", "Load (kN)"], (np.concatenate([[0.0], w + 0.3]), np.concatenate([[0.0], p / 1e3])))
     code, again, error = start(*words[:2], slack, *words[3:], "--out", out, "--replace")
@@ -198,6 +208,13 @@ def mixed():
     exact = 100 ** 2 / (2 * B) * (more - compliance) / step
     value = evaluated(out)["toughness"]["beam theory with corrections"]["max"]
     expect(abs(value / exact - 1) < 1e-3, f"the rate is that of the compliance: {value} {exact}")
+    # A beam that also shears, as specimens do: the modulus of the standard is too small, and the effective crack is that of the notch.
+    sheared = compliance + ((lever + half) / half) ** 2 * 3 * half / (10 * B * H * G13)
+    raw(path, ["d (mm)", "P (N)"], (1e3 * sheared * load, load))
+    code, _, error = start(*words)
+    about = evaluated(out)
+    value, plain = (about["toughness"][name]["max"] for name in ("effective crack", "beam theory with corrections"))
+    expect(code == 0 and abs(value / exact - 1) < 1e-3 and plain > 1.005 * exact, f"without the shear of the beam: {value} {plain} {exact} {error}")
 
 
 def wrong():
@@ -304,6 +321,16 @@ def drawing():
     ends = [line.get_xdata()[-1] for line in kept[0].axes[0].lines if line.get_label() in ("initial line", "5 % offset")]
     expect(np.allclose(ends, [1100, 1150]), f"the lines of the initial compliance and of the offset: {ends}")
     expect([text.get_text() for text in kept[0].texts] == ["raw.csv: a test"], "file and test are named")
+    one, none = types.SimpleNamespace(low=600.0, high=1500.0), types.SimpleNamespace(low=None, high=None)
+    pictures.draw("nowhere", "a test", curve, [answer, grows], points, [], {"calibration": {"max": none}, "effective crack": {"max": one}})
+    right = kept[2].axes[1]
+    points.points[-1].crack = 0.03
+    expect(not right.containers, "an interval at a crack that nobody knows is not drawn")
+    pictures.draw("nowhere", "a test", curve, [answer, grows], points, [], {"calibration": {"max": none}, "effective crack": {"max": one}})
+    right = kept[3].axes[1]
+    ends = [path.vertices[:, 1].tolist() for bar in right.containers for lines in bar.lines[2] for path in lines.get_paths()]
+    expect(ends == [[600.0, 1500.0]] and right.get_ylim()[1] > 1500 and "95 % intervals at the largest load" in right.get_legend_handles_labels()[1],
+           f"intervals stand at the largest load, and none where the data tell none: {ends}")
     sizes = [line.get_markersize() for line in kept[0].axes[0].lines if line.get_linestyle() == "None"]
     expect(len(set(sizes)) == 3, f"points that coincide are told apart: {sizes}")
 
@@ -374,6 +401,21 @@ def implausible():
     code, shown, error = start("evaluate", "dcb", path, "--notch", "50mm", "--E1", "140GPa", "--E2", "9GPa", "--G13", "5GPa", *dcb)
     expect(code == 0 and "warning" not in error and re.search(r"^modulus: the initial compliance of 0.1[0-9]* mm/N gives a bending modulus of 1[2-4][0-9.]* GPa, "
                                                              "[0-9.]* of --E1$", shown, re.M), f"the modulus is always said: {shown} {error}")
+    # Units, decimal places and columns with which the modulus would be that of the sheet are named.
+    titles, known = ["Extension (mm)", "Load (N)", "Crack (mm)"], ["--notch", "50mm", "--E1", "140GPa", "--E2", "9GPa", "--G13", "5GPa"]
+    for name, columns, wanted in ((["Extension (cm)", *titles[1:]], (x, y, marks), "the displacement of the file is in mm and not in cm .--units."),
+                                  (["Extension (mm)", "Load (kN)", titles[2]], (x, y, marks), "the load of the file is in N and not in kN .--units."),
+                                  (titles[:2], (y, x), "displacement and load are exchanged .--columns X Y.")):
+        other = raw(os.path.join(here, "other.csv"), name, columns)
+        expect_error(start("evaluate", "dcb", other, *known, *dcb), 2, f"GPa, --E1 is 140 GPa, and would agree if (.*, or if )?{wanted}")
+    for more, wanted in ((["--arm", "15mm"], "--arm is 1.5mm"), (["--arm", "1.5mm", "--E1", "140MPa"], "--E1 is 140GPa")):
+        expect_error(start("evaluate", "dcb", path, *known[:2], *known[4:], *(["--E1", "140GPa"] * ("--E1" not in more)), "--width", "25mm", *more,
+                           "--out", out), 2, f"and would agree if (.*, or if )?{wanted}")
+    far = raw(os.path.join(here, "far.csv"), ["Extension (cm)", "Load (N)", "Crack (mm)"], (x, y, marks))
+    code, shown, error = start("evaluate", "dcb", far, "--notch", "50mm", *dcb, "--replace")
+    expect(code == 0 and re.search("at an opening of .* mm the crack is 90 mm long: beyond 0.4 of the crack, arms rotate too far", error), f"far open: {error}")
+    code, shown, error = start("evaluate", "dcb", path, *known, *dcb, "--replace")
+    expect(code == 0 and "warning" not in error, error)
     expect(90e9 < evaluated(out)["modulus"] < 150e9 and evaluated(out)["units"]["modulus"] == "Pa", "and kept")
     files = {}
     for a in (0.02, 0.03, 0.04):

@@ -479,7 +479,7 @@ inp("TYPE=CPE3", "TYPE=COHAX4", r"bad\.inp:16: \*ELEMENT: type COHAX4 is not rea
 inp("TYPE=CPE3", "TYPE=COH2D4", r"bad\.inp:17: \*ELEMENT: 3 nodes: COH2D4 has 4")
 inp("TYPE=CPE3", "TYPE=CPE3H", r"bad\.inp:16: \*ELEMENT: type CPE3H is not read \(did you mean 'CPE3'")
 inp("20, 3, 4, 6", "20, 3, 4", r"bad\.inp:17: \*ELEMENT: 2 nodes: CPE3 has 3")
-inp("20, 3, 4, 6", "20, 3, 4, 66", r"bad\.inp:17: \*ELEMENT: node 66 is not there")
+inp("20, 3, 4, 6", "20, 3, 4, 66", r"bad\.inp:17: \*ELEMENT: element 20 has node 66, which is not there")
 inp("20, 3, 4, 6", "20, 3, 4, 6.5", r"bad\.inp:17: \*ELEMENT: \"6\.5\": a whole number")
 inp("21, 3, 6, 5", "20, 3, 6, 5", r"bad\.inp:18: \*ELEMENT: element 20 occurs twice")
 inp("5, 0, 2", "5, 0, two", r"bad\.inp:9: \*NODE: \"two\": a finite number")

@@ -176,6 +176,8 @@ def places():
         _, _, error = delam("new", "dcb", *good[:-1], toughness)
         expect(f"--GIc {toughness} is {value}, and specimens have 40 to 6000 J/m2: 250J/m2 may be meant" in error and "[units]" not in error,
                f"a toughness of another unit: {error}")
+    _, _, error = delam("new", "dcb", *(word if word != "1.5mm" else "15mm" for word in good))
+    expect("3 to 5 mm, both arms together, for this toughness and notch; it is 30 mm: --arm 1.5mm may be meant" in error, f"an arm: {error}")
     _, _, error = delam("new", "dcb", *(word if word != "140GPa" else "140MPa" for word in good))
     expect("--E1 140MPa is 0.14 GPa" in error and ": 140GPa may be meant" in error, f"a modulus: {error}")
     for kind, sheet in {**{kind: [*PLY, *one[0].split()] for kind, one in KINDS.items()},

@@ -6,7 +6,8 @@ import os
 import signal
 import subprocess
 
-from block_deck import close, deck, history, imported
+from block_deck import deck, history
+from deck_runs import close, imported
 from support import DELAM, delam, expect, expect_error, finish, folder, write
 
 FORCES = 0.02  # on each of the five nodes of the top, far below what breaks the interface

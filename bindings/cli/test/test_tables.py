@@ -10,6 +10,7 @@ from support import expect, expect_error, finish, folder, start
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "study"))
 from command import Trouble  # noqa: E402
+from measured.columns import choose  # noqa: E402
 from measured.curve_data import upright  # noqa: E402
 from measured.number_forms import form_of, number_of  # noqa: E402
 from measured.one_test import read_test  # noqa: E402
@@ -51,6 +52,8 @@ def numbers():
         expect(number_of(cell, ".") != number_of(cell, "."), f"{cell!r} is an empty cell")
     expect(form_of(["1,234;2,345", "1,250;2,512"]).decimal == ",", "commas alone are decimal ones")
     expect(form_of(["1,234.5;2,345.0", "999.0;1.0"]).decimal == ".", "beside points they group thousands")
+    form = form_of(["900,5;49,1;", "950,0;52;", "990;55", "995;60"])
+    expect((form.decimal, form.width) == (",", 3), f"rows that end early count for the decimal sign: {form}")
     american = [("Time;Extension;Load\ns;mm;N\n", "{:.2f};{:.5f};{:,.3f}\n", lambda line: line),
                 ('"Time","Extension","Load"\n"(s)","(mm)","(N)"\n', '"{:.2f}","{:.5f}","{:,.3f}"\n', lambda line: line),
                 ("Zeit;Weg;Kraft\ns;mm;N\n", "{:.2f};{:.5f};{:,.3f}\n", lambda line: line.replace(",", "'")),
@@ -121,6 +124,37 @@ def several():
     text = "".join(f"{k * 0.5}\t{x:.5f}\t{100 * x:.4f}\n" + ("\n" if k in (24, 49) else "") for k, x in enumerate(way))
     table = read_test(file_of("Time (s)\tExtension (mm)\tLoad (N)\n" + text))
     expect(len(table.lines) == len(way), f"a test that unloads is one: {table.said}")
+
+
+def remarks():
+    """Columns in which an operator writes now and then are no rows with a fault, and no titles."""
+    titles, noted = "Time (s),Extension (mm),Load (N),Event\n", {0: "start", 11: "crack seen", 30: "stop"}
+    for wide in (True, False):  # the file has an empty cell where there is no remark, or ends the row before it
+        text = titles + "".join(f"{t},{x:.5f},{p:.3f}" + ("," if wide or k in noted else "") + noted.get(k, "") + "\n"
+                                for k, (t, x, p) in enumerate(zip(T, X, P)))
+        table = read_test(file_of(text))
+        expect(table.titles[:3] == ["Time", "Extension", "Load"] and len(table.lines) == 40 and np.allclose(table.columns[2], P, atol=1e-3),
+               f"rows with a remark, empty cells {wide}: {table.titles} {len(table.lines)}")
+        expect(len(table.texts[3]) == 40 and table.texts[3][11] == "crack seen", "and the remarks are kept")
+    alone = titles + rows("{:.2f},{:.5f},{:.3f},\n").replace("5.00,", ",,,crack seen\n5.00,", 1)
+    table = read_test(file_of(alone))
+    expect(len(table.lines) == 40 and np.isfinite(table.columns[2]).all(), f"a remark in a row of its own: {len(table.lines)}")
+    bad = titles + rows("{:.2f},{:.5f},{:.3f},\n").replace(f"{P[20]:.3f}", "12:x", 1)
+    refused("a wrong cell beside them", ("row 21 of the numbers (line 22)", '"12:x"'), read_test, file_of(bad))
+    marks = file_of("Prüfzeit [s];Risslänge [mm];Bemerkung\n131,2;49,1;Einriss sichtbar\n137,7;50,0;\n144,0;51,2;\n150,1;52,0;\n", "latin-1")
+    sheet = Sheet(marks, SimpleNamespace(crack="", units=None))
+    expect(np.allclose(sheet.crack, [0.0491, 0.05, 0.0512, 0.052]), f"crack lengths with a remark: {sheet.crack}")
+
+
+def chosen():
+    """A time is never taken for displacement or load, and what cannot be chosen is listed."""
+    for titles, wanted in (("Zeit;Kanal 2;Kanal 3\n", [1, 2]), ("Zeit (s);Weg (mm);Kanal 3\n", [1, 2]), ("Zeit (s);Kanal 2;Kraft (N)\n", [1, 2]),
+                           ("Temp;Kanal 2;Kraft\n", [0, 2]), ("a;b;c\n", [1, 2]), ("a;b\n", [0, 1]), ("", [0, 1])):
+        table = read_test(file_of(titles + rows("{:.2f};{:.5f}\n" if titles == "a;b\n" else "{:.2f};{:.5f};{:.3f}\n")))
+        expect(choose(table) == wanted, f"{titles!r}: {choose(table)}")
+    table = read_test(file_of("Zeit (s);Weg (mm);Messzeit (s)\n" + rows("{:.2f};{:.5f};{:.3f}\n")))
+    refused("two times", ('neither titles nor units say which columns are displacement and load: name two of 1 "Zeit" in s, 2 "Weg" in mm, 3',
+                          "--columns X Y"), choose, table)
 
 
 def signs():
@@ -215,6 +249,8 @@ def doubtful_cracks():
 
 numbers()
 files()
+remarks()
+chosen()
 several()
 signs()
 cracks()

@@ -58,9 +58,10 @@ def viewed(scene, *words):
 
 
 def near(values, exact, bits):
-    """As close as so many significant bits are."""
+    """As close as so many significant bits are of what single precision leaves."""
     exact = np.asarray(exact)
-    return values.shape == exact.shape and np.all(np.abs(values - exact) <= np.abs(exact) * 2.0 ** -bits + 1e-37)
+    least = 2.0 ** -bits + 2.0 ** -24
+    return values.shape == exact.shape and np.all(np.abs(values - exact) <= np.abs(exact) * least + 1e-37)
 
 
 def area_of(polygon, points):
@@ -123,7 +124,9 @@ def compare_step(page, step, of, group, sides, owners, what):
     u = page.array(step["displacement"], 3)
     exact = of["displacement"][()]
     good = all(near(u[side], exact[group[name][()]], 16) for side, name in zip(sides, ("nodes_a", "nodes_b")))
-    largest = np.linalg.norm(exact, axis=1).max()
+    # Tied nodes of pairs at mid-side nodes may move by more than any node of a cell.
+    cells = of.file["mesh/cells"][()]
+    largest = np.linalg.norm(exact[np.unique(cells[cells >= 0])], axis=1).max()
     expect(good and abs(np.linalg.norm(u, axis=1).max() - largest) <= 2e-5 * largest + 1e-37, f"{what}: displacements")
     expect(near(page.array(step["adhesion"][0]), of["interface_0/zeta"][()], 16), f"{what}: adhesion")
     if "stress" in step:

@@ -19,6 +19,7 @@ sys.path.insert(0, str(SITE / "tools"))
 
 import blocks  # noqa: E402
 import generate  # noqa: E402
+import links  # noqa: E402
 import sandbox  # noqa: E402
 from stage import Stage  # noqa: E402
 
@@ -46,19 +47,35 @@ class Documents(unittest.TestCase):
         self.assertTrue({"README.md", "bindings/cli/SCENE.md"} <= set(found))
 
     def test_links(self):
-        """Relative links of all documents lead to files, also where the site does not show them."""
-        listed = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, capture_output=True, text=True, check=False)
+        """Links of all documents lead to files of the repository and to headings, also outside of the site."""
+        listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=False)
         if listed.returncode != 0:
             self.skipTest("no clone of the repository")
-        number = 0
-        for name in listed.stdout.split():
-            text = re.sub(r"(?ms)^```.*?^```", "", (ROOT / name).read_text(encoding="utf-8"))
-            for link in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text):
-                if re.match(r"[a-z]+:", link):
-                    continue
-                number += 1
-                self.assertTrue(((ROOT / name).parent / link).exists(), f"{name}: {link}")
-        self.assertGreater(number, 50)
+        names = listed.stdout.split("\n")[:-1]
+        number, wrong = links.of_documents(ROOT, names)
+        self.assertEqual(wrong, [])
+        self.assertGreater(number, 250)
+
+    def test_dead_links_of_documents(self):
+        """What is dead is found: a file that is not there or not in the repository, a heading, a place outside."""
+        good = "[x](in/b.md#two-words-code) [y](in) [z](#a) [w](https://example.org)"
+        planted = {good: None, "[x](c.md)": "c.md is not there", "[x](in/b.md#three)": "in/b.md has no heading #three",
+                   "[x](#b)": "a.md has no heading #b", "[x](built.txt)": "built.txt is not in the repository",
+                   "[x][1]\n\n[1]: c.md": "c.md is not there", '![x](c.png "title")': "c.png is not there",
+                   "[x](../../etc)": "../../etc leads out of the repository",
+                   "[w](htps://example.org)": "htps://example.org: unknown scheme htps",
+                   "[w](https://)": "https://: no host"}
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "in").mkdir()
+            other = "# B\n\n## Two words, `code`\n\n```text\n[no](link.md)\n```\n"
+            (root / "in/b.md").write_text(other, encoding="utf-8")
+            (root / "built.txt").write_text("", encoding="utf-8")
+            for text, words in planted.items():
+                (root / "a.md").write_text(f"# A\n\n{text}\n", encoding="utf-8")
+                number, wrong = links.of_documents(root, ["a.md", "in/b.md"])
+                self.assertEqual([f"a.md: {words}"] if words else [], wrong, text)
+                self.assertGreater(number, 0)
 
     def test_readme(self):
         text = (ROOT / "README.md").read_text(encoding="utf-8")

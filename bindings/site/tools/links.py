@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks every link of the built site: files and places in them are there; addresses of hosts are well formed.
+"""Checks every link of the built site: files and places in them are there; addresses of hosts are well formed. The same
+of the documents of the repository, which people read without the site (of_documents).
 
     links.py HTML [--least N]
 
 The network is not asked, so that an address may still lead nowhere. --least: fewer links are an error.
 """
 import argparse
+import os
 import pathlib
 import re
 import sys
 from html.parser import HTMLParser
 from urllib.parse import unquote, urlsplit
+
+from stage import places_of
 
 ATTRIBUTES = {"a": "href", "link": "href", "img": "src", "script": "src", "source": "src", "iframe": "src"}
 HOST = re.compile(r"[a-z0-9]([a-z0-9-]*[a-z0-9])?(\.[a-z0-9]([a-z0-9-]*[a-z0-9])?)+")
@@ -72,6 +76,48 @@ def missing(folder, pages, path, address):
     if parts.fragment and target in pages and unquote(parts.fragment) not in pages[target].places:
         return "no such place in the page"
     return None
+
+
+# [words](link "title"), [words]: link in a line of its own, <https://host>
+WRITTEN = re.compile(r"""\]\(\s*<?([^()<>\s]+)>?(?:\s+"[^"]*")?\s*\)|"""
+                     r"^ {0,3}\[[^\]]+\]:\s*<?(\S+?)>?\s*$|<(https?:[^>\s]*)>", re.M)
+FENCED = re.compile(r"(?ms)^(`{3,}|~{3,}).*?^\1`*\s*$")
+SPAN = re.compile(r"(?<!`)(`+)(?!`)(?:(?!\1).)*?(?<!`)\1(?!`)")
+
+
+def of_document(root, name, files):
+    """The links of a document, and what is wrong with each of them or None. files: of the repository, with folders."""
+    path = root / name
+    text = FENCED.sub("", path.read_text(encoding="utf-8"))
+    text = re.sub(r"(?m)^    .*$", "", text)
+    for found in WRITTEN.finditer(SPAN.sub(lambda span: "`" if "](" in span[0] else span[0], text)):
+        link = next(group for group in found.groups() if group)
+        if re.match(r"[a-z][a-z0-9+.-]*:", link, re.IGNORECASE):
+            trouble = outside(link)
+            yield link, f"{link}: {trouble}" if trouble else None
+            continue
+        place, _, anchor = link.partition("#")
+        target = pathlib.Path(os.path.normpath(path.parent / unquote(place))) if place else path
+        if root not in [target, *target.parents]:
+            yield link, f"{place} leads out of the repository"
+        elif not target.exists():
+            yield link, f"{place} is not there"
+        elif target.relative_to(root) not in files:
+            yield link, f"{place} is not in the repository"
+        else:
+            target = target / "README.md" if target.is_dir() else target
+            there = not anchor or target.is_file() and unquote(anchor) in places_of(target.read_text(encoding="utf-8"))
+            yield link, None if there else f"{target.relative_to(root)} has no heading #{anchor}"
+
+
+def of_documents(root, names):
+    """How many links the documents of a repository have, and what is wrong. names: of all of its files."""
+    root = pathlib.Path(root).resolve()
+    files = {pathlib.Path(name) for name in names}
+    files |= {parent for name in files for parent in name.parents}
+    documents = [name for name in names if name.endswith(".md")]
+    checked = [(name, trouble) for name in documents for _, trouble in of_document(root, name, files)]
+    return len(checked), [f"{name}: {trouble}" for name, trouble in checked if trouble]
 
 
 def main():

@@ -10,6 +10,7 @@
 #include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "mesh/points.hpp"
+#include "mesh/rule/mid_sides.hpp"
 #include "mesh/shape.hpp"
 
 namespace delam {
@@ -85,7 +86,7 @@ SparseMatrix surface_stiffness(const Mesh& mesh, const InterfaceGeometry& interf
         const std::size_t n = face.size();
         std::vector<Point> x(n, Point{});
         for (std::size_t a = 0; a < n; ++a) {
-            const auto node = mesh.node(interface.node_a[index(face[a])]);
+            const auto node = mesh.node(node_of_pair(mesh, interface.node_a[index(face[a])]));
             std::copy(node.begin(), node.end(), x[a].begin());
         }
         const Local local = stiffness_of(mesh.dimension(), x);

@@ -19,7 +19,7 @@ namespace {
 constexpr double zone_ends = 1e-3;
 
 double mixity_of(const CrackedInterface& interface, std::int64_t pair) {
-    const SpaceJump jump = jump_of(interface, pair);
+    const SpaceVector jump = jump_of(interface, pair);
     double shear = 0.0;
     for (const double component : jump.tangential) shear += component * component;
     const double normal = 0.5 * interface.law.normal_stiffness * jump.normal * jump.normal;
@@ -94,17 +94,38 @@ Vector3 place_of(const CrackedInterface& interface, std::int64_t pair) {
     return place;
 }
 
-SpaceJump jump_of(const CrackedInterface& interface, std::int64_t pair) {
+namespace {
+
+SpaceVector in_space(const CrackedInterface& interface, std::int64_t pair, std::span<const double> local,
+                     double scale) {
     const std::size_t dim = index(interface.mesh.dimension());
     const double* frame = &interface.geometry.frame[index(pair) * dim * dim];
-    SpaceJump jump{interface.jump[index(pair) * dim], {}, {}};
+    SpaceVector made{scale * local[index(pair) * dim], {}};
     for (std::size_t t = 1; t < dim; ++t)
-        for (std::size_t i = 0; i < dim; ++i) {
-            const double part = frame[t * dim + i] * interface.jump[index(pair) * dim + t];
-            jump.tangential[i] += part;
-            jump.pull[i] += interface.law.stiffness(t) * part;
-        }
-    return jump;
+        for (std::size_t i = 0; i < dim; ++i)
+            made.tangential[i] += frame[t * dim + i] * scale * local[index(pair) * dim + t];
+    return made;
+}
+
+}  // namespace
+
+SpaceVector jump_of(const CrackedInterface& interface, std::int64_t pair) {
+    return in_space(interface, pair, interface.jump, 1.0);
+}
+
+SpaceVector traction_of(const CrackedInterface& interface, std::int64_t pair) {
+    return in_space(interface, pair, interface.force, 1.0 / interface.geometry.weight[index(pair)]);
+}
+
+void add_closure(const CrackedInterface& interface, std::int64_t p, std::int64_t q, double factor, const Vector3& n,
+                 Vector3& rate) {
+    const SpaceVector u = jump_of(interface, p), v = jump_of(interface, q);
+    const SpaceVector s = traction_of(interface, p), t = traction_of(interface, q);
+    const double ahead = dot(t.tangential, n) * dot(u.tangential, n) - dot(s.tangential, n) * dot(v.tangential, n);
+    const double sliding = dot(t.tangential, u.tangential) - dot(s.tangential, v.tangential);
+    rate[0] += factor * (t.normal * u.normal - s.normal * v.normal);
+    rate[1] += factor * ahead;
+    rate[2] += factor * (sliding - ahead);
 }
 
 std::vector<CrackFront> crack_fronts(const CrackedInterface& interface) {

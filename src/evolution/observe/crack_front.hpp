@@ -10,7 +10,8 @@
 // contact, [u]_n = 0, does not contribute either. Between neighbouring pairs it is
 //     1/2 (t_1.[u]_0 - t_0.[u]_1) = 1/2 k (zeta_1 - zeta_0) [u]_0 [u]_1,
 // at a sharp tip 1/2 t_tip.[u]_behind: the virtual crack closure of Rybicki and Kanninen (Eng. Fract. Mech. 9, 1977).
-// Its components are the modes.
+// The traction of a stiff interface is that of a contact where it presses, which closes behind an advancing tip as any
+// other. Its components are the modes. On quadratic faces the pairs are the next ones of their kind (pair_links.hpp).
 //
 // In 3D, the rate of a point is that of a band about it. It is the integral of w Y grad zeta . n over the faces,
 // divided by the length of front in the band, - int w grad s . n dA. The spent share s falls from 1 to 0 across the
@@ -48,7 +49,7 @@ struct CrackFront {
     std::vector<FrontPoint> points;
 };
 
-// An interface with its law and state, each [pairs]; jump: [pairs][dimension], local.
+// An interface with its law and state, each [pairs]; jump and force: [pairs][dimension], local.
 struct CrackedInterface {
     const Mesh& mesh;
     const InterfaceGeometry& geometry;
@@ -56,6 +57,7 @@ struct CrackedInterface {
     std::span<const double> initial;
     std::span<const double> adhesion;
     std::span<const double> jump;
+    std::span<const double> force;  // F, contact included
 };
 
 // The adhesion at a front.
@@ -105,12 +107,16 @@ inline constexpr std::array<std::array<int, 3>, 4> quad_halves{{{0, 1, 2}, {0, 2
 std::vector<PairPiece> pair_pieces(const InterfaceGeometry& geometry, int dimension);
 
 Vector3 place_of(const CrackedInterface& interface, std::int64_t pair);
-// The jump in space: its component along the pair's normal, and the rest.
-struct SpaceJump {
+// The jump of a pair in space, or its traction (force over weight): the component along the pair's normal, and the
+// rest.
+struct SpaceVector {
     double normal;
     Vector3 tangential;
-    Vector3 pull;  // the traction along the interface that belongs to it while the pair is whole, F/L2
 };
-SpaceJump jump_of(const CrackedInterface& interface, std::int64_t pair);
+SpaceVector jump_of(const CrackedInterface& interface, std::int64_t pair);
+SpaceVector traction_of(const CrackedInterface& interface, std::int64_t pair);
+// Adds factor (t_q.[u]_p - t_p.[u]_q), in the modes of a front that advances in direction n, to a rate.
+void add_closure(const CrackedInterface& interface, std::int64_t p, std::int64_t q, double factor, const Vector3& n,
+                 Vector3& rate);
 
 }  // namespace delam

@@ -224,14 +224,14 @@ private:
         if (inside(i2)) return add_link(i0, i2, corner ? 1.0 / 3.0 : 2.0 / 3.0, out);
         if (!corner) add_link(i0, i1, 2.0 / 3.0, out);  // the end of the interface replaces a middle node beyond it
     }
-    // 1/2 k (zeta_1 - zeta_0) [u]_0 [u]_1
+    // 1/2 (t_1.[u]_0 - t_0.[u]_1)
     void add_link(std::int64_t i0, std::int64_t i1, double share, FrontPoint& out) const {
+        if (adhesion(i0) == adhesion(i1)) return;
         if (undamaged(initial(i0), adhesion(i0)) && undamaged(initial(i1), adhesion(i1))) return;
-        const SpaceJump u0 = jump_of(interface_, pair(i0)), u1 = jump_of(interface_, pair(i1));
-        const double half = 0.5 * share * (adhesion(i1) - adhesion(i0));
-        out.rate[0] += half * interface_.law.normal_stiffness * u0.normal * u1.normal;
-        out.rate[1] += half * interface_.law.tangential_stiffness *
-                       (u0.tangential[0] * u1.tangential[0] + u0.tangential[1] * u1.tangential[1]);
+        Vector3 rate{};
+        add_closure(interface_, pair(i0), pair(i1), 0.5 * share, out.direction, rate);
+        out.rate[0] += rate[0];
+        out.rate[1] += rate[1] + rate[2];  // the tangents of curved interfaces turn from pair to pair
     }
 
     const CrackedInterface& interface_;

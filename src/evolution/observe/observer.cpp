@@ -54,7 +54,8 @@ std::optional<CrackedInterface> Observer::cracked(const State& state, std::int64
                             *properties.law,
                             std::span(properties.adhesion),
                             std::span(state.adhesion).subspan(first, count),
-                            std::span(state.response.jump).subspan(first * dim, count * dim)};
+                            std::span(state.response.jump).subspan(first * dim, count * dim),
+                            std::span(state.response.force).subspan(first * dim, count * dim)};
 }
 
 double Observer::largest_rotation(const State& state) {

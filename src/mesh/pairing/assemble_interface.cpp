@@ -12,8 +12,9 @@
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 #include "mesh/pairing/interfaces.hpp"
-#include "mesh/pairing/nodal_rule.hpp"
 #include "mesh/points.hpp"
+#include "mesh/rule/mid_sides.hpp"
+#include "mesh/rule/nodal_rule.hpp"
 
 namespace delam {
 
@@ -124,41 +125,75 @@ namespace {
 // The pairs of each face's nodes, -1 where a node has none.
 using PairsOfFaces = std::vector<std::vector<std::int64_t>>;
 
-// Fills weights and faces; returns the area vectors. nodes: of the pairs, on the side of the faces.
-std::vector<Point> lay_pairs(const Mesh& mesh, std::span<const BoundaryFace> faces_of_nodes, const PairsOfFaces& pairs,
-                             std::span<const std::int64_t> nodes, InterfaceGeometry& interface) {
-    std::size_t corners = index(mesh.dimension()), others = 0;
-    std::vector<PairFace> faces;
-    interface.weight.assign(nodes.size(), 0.0);
-    std::vector<Point> area(nodes.size(), Point{});
-    const auto add = [&](std::span<const std::int64_t> of_face, const NodalRule& rule) {
+// Sums up the rules of faces: weights, area vectors, and the area around each pair.
+struct PairAreas {
+    explicit PairAreas(std::size_t pairs) : weight(pairs, 0.0), around(pairs, 0.0), vector(pairs, Point{}) {}
+    void add(std::span<const std::int64_t> of_face, const NodalRule& rule) {
+        double whole = 0.0;
+        for (std::size_t k = 0; k < of_face.size(); ++k) whole += rule.weight[k];
         for (std::size_t k = 0; k < of_face.size(); ++k) {
             if (of_face[k] < 0) continue;
-            interface.weight[index(of_face[k])] += rule.weight[k];
-            for (std::size_t i = 0; i < 3; ++i) area[index(of_face[k])][i] += rule.area[k][i];
+            weight[index(of_face[k])] += rule.weight[k];
+            around[index(of_face[k])] += whole;
+            for (std::size_t i = 0; i < 3; ++i) vector[index(of_face[k])][i] += rule.area[k][i];
         }
-    };
+    }
+    std::vector<double> weight, around;
+    std::vector<Point> vector;
+};
+
+// Says which values the pairs at mid-side nodes compare: those at the nodes, or values with positive weights that give
+// a uniform traction its nodal forces (mid_sides.hpp).
+enum class MidSideValues { nodal, consistent };
+
+// The area vectors of pairs, and those at mid-side nodes that compare other values than these.
+struct LaidPairs {
+    std::vector<Point> area;
+    std::vector<MidSide> middle;
+};
+
+// Fills weights and faces. nodes: of the pairs, on the side of the faces.
+LaidPairs lay_pairs(const Mesh& mesh, std::span<const BoundaryFace> faces_of_nodes, const PairsOfFaces& pairs,
+                    std::span<const std::int64_t> nodes, MidSideValues values, InterfaceGeometry& interface) {
+    std::size_t corners = index(mesh.dimension()), others = 0;
+    std::vector<PairFace> faces;
+    std::vector<std::size_t> open;  // faces with a node that is no pair
+    MidSides sides(nodes.size());
     for (std::size_t f = 0; f < faces_of_nodes.size(); ++f) {
         const BoundaryFace& face = faces_of_nodes[f];
         poll_cancel("pairs", 2);
         corners = std::max(corners, face.corner().size());
         others = std::max(others, face.middle().size());
+        if (values == MidSideValues::consistent) sides.add(face.all(), pairs[f], face.corner().size());
         if (std::find(pairs[f].begin(), pairs[f].end(), -1) == pairs[f].end())
             faces.push_back(pair_face(face, pairs[f]));
         else
-            add(pairs[f], nodal_rule(mesh, face.all()));
+            open.push_back(f);
     }
     std::sort(faces.begin(), faces.end());
+    const auto sum_up = [&] {
+        PairAreas areas(nodes.size());
+        const auto add = [&](std::span<const std::int64_t> face, std::span<const std::int64_t> own, std::size_t count) {
+            poll_cancel("pairs", 2);
+            areas.add(own,
+                      values == MidSideValues::nodal ? nodal_rule(mesh, face) : sides.rule(mesh, face, own, count));
+        };
+        for (const std::size_t f : open) add(faces_of_nodes[f].all(), pairs[f], faces_of_nodes[f].corner().size());
+        for (const PairFace& face : faces) {
+            std::array<std::int64_t, most_face_nodes> own{};
+            for (std::size_t k = 0; k < face.pair.size(); ++k) own[k] = nodes[index(face.pair[k])];
+            add(std::span<const std::int64_t>(own).first(face.pair.size()), face.pair, face.corners);
+        }
+        return areas;
+    };
+    PairAreas areas = sum_up();
+    while (sides.widen(areas.weight, areas.around)) areas = sum_up();
+    interface.weight = std::move(areas.weight);
+
     const FaceRow& row = face_row(mesh.dimension(), corners, others);
     interface.nodes_per_face = row.nodes;
-    for (const PairFace& face : faces) {
-        poll_cancel("pairs", 2);
-        std::array<std::int64_t, most_face_nodes> own{};
-        for (std::size_t k = 0; k < face.pair.size(); ++k) own[k] = nodes[index(face.pair[k])];
-        add(face.pair, nodal_rule(mesh, std::span<const std::int64_t>(own).first(face.pair.size())));
-        append_padded(face, row, interface.face);
-    }
-    return area;
+    for (const PairFace& face : faces) append_padded(face, row, interface.face);
+    return {std::move(areas.vector), sides.list()};
 }
 
 // Makes the frames of an interface from the area vectors of its pairs.
@@ -174,10 +209,8 @@ void write_frames(const Mesh& mesh, const std::vector<Point>& area, std::span<co
     }
 }
 
-}  // namespace
-
-std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> faces, FaceSide side,
-                             InterfaceGeometry& interface) {
+LaidPairs lay_faces_with(const Mesh& mesh, std::span<const BoundaryFace> faces, FaceSide side, MidSideValues values,
+                         InterfaceGeometry& interface) {
     const std::vector<std::int64_t>& nodes = side == FaceSide::a ? interface.node_a : interface.node_b;
     std::map<std::int64_t, std::int64_t> pair_of;  // pair of a node of the faces
     for (std::size_t p = 0; p < nodes.size(); ++p) pair_of.emplace(nodes[p], static_cast<std::int64_t>(p));
@@ -186,38 +219,47 @@ std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> fac
         pairs.emplace_back();
         for (const std::int64_t node : face.all()) pairs.back().push_back(pair_of.at(node));
     }
-    return lay_pairs(mesh, faces, pairs, nodes, interface);
+    return lay_pairs(mesh, faces, pairs, nodes, values, interface);
 }
 
-InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
-                                     std::span<const BoundaryFace> faces, FaceSide side, double distance) {
-    InterfaceGeometry result;
+}  // namespace
+
+void lay_faces(const Mesh& mesh, std::span<const BoundaryFace> faces, FaceSide side, InterfaceGeometry& interface) {
+    lay_faces_with(mesh, faces, side, MidSideValues::nodal, interface);
+}
+
+NewInterface assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs, std::span<const BoundaryFace> faces,
+                                FaceSide side, double distance) {
+    NewInterface result;
     for (const std::size_t i : spatial_order(mesh, pairs, side, distance)) {
-        result.node_a.push_back(pairs[i].first);
-        result.node_b.push_back(pairs[i].second);
+        result.geometry.node_a.push_back(pairs[i].first);
+        result.geometry.node_b.push_back(pairs[i].second);
     }
-    const std::vector<Point> area = lay_faces(mesh, faces, side, result);
-    write_frames(mesh, area, side == FaceSide::a ? result.node_a : result.node_b, result);
+    LaidPairs laid = lay_faces_with(mesh, faces, side, MidSideValues::consistent, result.geometry);
+    write_frames(mesh, laid.area, side == FaceSide::a ? result.geometry.node_a : result.geometry.node_b,
+                 result.geometry);
+    result.middle = std::move(laid.middle);
     return result;
 }
 
-InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
-                                     std::span<const BoundaryFace> faces,
-                                     std::span<const std::vector<NodePair>> of_faces, double distance) {
-    InterfaceGeometry result;
+NewInterface assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs, std::span<const BoundaryFace> faces,
+                                std::span<const std::vector<NodePair>> of_faces, double distance) {
+    NewInterface result;
+    InterfaceGeometry& made = result.geometry;
     std::map<NodePair, std::int64_t> place_of;
     for (const std::size_t i : spatial_order(mesh, pairs, FaceSide::a, distance)) {
-        place_of.emplace(pairs[i], static_cast<std::int64_t>(result.node_a.size()));
-        result.node_a.push_back(pairs[i].first);
-        result.node_b.push_back(pairs[i].second);
+        place_of.emplace(pairs[i], static_cast<std::int64_t>(made.node_a.size()));
+        made.node_a.push_back(pairs[i].first);
+        made.node_b.push_back(pairs[i].second);
     }
     PairsOfFaces known;
     for (const std::vector<NodePair>& of_face : of_faces) {
         known.emplace_back();
         for (const NodePair& pair : of_face) known.back().push_back(pair.first == pair.second ? -1 : place_of.at(pair));
     }
-    const std::vector<Point> area = lay_pairs(mesh, faces, known, result.node_a, result);
-    write_frames(mesh, area, result.node_a, result);
+    LaidPairs laid = lay_pairs(mesh, faces, known, made.node_a, MidSideValues::consistent, made);
+    write_frames(mesh, laid.area, made.node_a, made);
+    result.middle = std::move(laid.middle);
     return result;
 }
 

@@ -9,6 +9,7 @@
 
 #include "mesh/faces.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/rule/mid_sides.hpp"
 
 namespace delam {
 
@@ -18,18 +19,16 @@ using NodePair = std::pair<std::int64_t, std::int64_t>;  // of a, of b
 // nodes order the pairs; coordinates closer than `distance` count as equal. Weights and normals are those of the faces.
 // The caller sets the bodies.
 enum class FaceSide { a, b };
-InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
-                                     std::span<const BoundaryFace> faces, FaceSide side, double distance);
+NewInterface assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs, std::span<const BoundaryFace> faces,
+                                FaceSide side, double distance);
 // The same where a node of side a may have several pairs: of_faces has the pair of each node of each face. Nodes that
 // are their own partners have no pair: their faces add to the weights and normals of the others, and are left out.
-InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
-                                     std::span<const BoundaryFace> faces,
-                                     std::span<const std::vector<NodePair>> of_faces, double distance);
+NewInterface assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs, std::span<const BoundaryFace> faces,
+                                std::span<const std::vector<NodePair>> of_faces, double distance);
 
-// Weights and faces of an interface that has its pairs, from such faces; returns the sum of the area vectors at each
-// pair. Pairs on no face have weight 0.
-std::vector<std::array<double, 3>> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> faces, FaceSide side,
-                                             InterfaceGeometry& interface);
+// Fills weights and faces of an interface that has its pairs, all at the nodes themselves. Pairs on no face have weight
+// 0.
+void lay_faces(const Mesh& mesh, std::span<const BoundaryFace> faces, FaceSide side, InterfaceGeometry& interface);
 
 // The same face with the opposite orientation.
 BoundaryFace turned(const BoundaryFace& face);

@@ -18,6 +18,7 @@
 #include "mesh/pairing/interfaces.hpp"
 #include "mesh/pairing/overlap.hpp"
 #include "mesh/points.hpp"
+#include "mesh/rule/mid_sides.hpp"
 
 namespace delam {
 
@@ -153,10 +154,10 @@ Matching match_bodies(const Mesh& mesh, std::span<const BoundaryFace> faces_a, s
     return m;
 }
 
-InterfaceGeometry interface_of(const Mesh& mesh, const Matching& m, std::int32_t a, std::int32_t b, double distance) {
-    InterfaceGeometry result = assemble_interface(mesh, m.node, m.on_a, FaceSide::a, distance);
-    result.body_a = a;
-    result.body_b = b;
+NewInterface interface_of(const Mesh& mesh, const Matching& m, std::int32_t a, std::int32_t b, double distance) {
+    NewInterface result = assemble_interface(mesh, m.node, m.on_a, FaceSide::a, distance);
+    result.geometry.body_a = a;
+    result.geometry.body_b = b;
     return result;
 }
 
@@ -213,7 +214,7 @@ std::int64_t add_interface(Mesh& mesh, std::int32_t label_a, std::int32_t label_
              ": no boundary faces coincide; their boundary nodes come as close as ", nearest.first, " (node ",
              nearest.second, "), faces coincide within ", distance);
     }
-    return mesh.append(interface_of(mesh, m, a, b, distance));
+    return append_interface(mesh, interface_of(mesh, m, a, b, distance));
 }
 
 // Two bodies can share a face only where boxes around their boundary faces meet, and only the faces with such boxes are
@@ -257,7 +258,7 @@ std::int64_t add_all_interfaces(Mesh& mesh, double tolerance) {
         for (const std::size_t f : list) picked.push_back(faces[f]);
         return picked;
     };
-    std::vector<InterfaceGeometry> found;
+    std::vector<NewInterface> found;
     for (std::size_t k = 0; k < meetings.size();) {
         const auto [a, b, first_a, first_b] = meetings[k];
         std::vector<std::size_t> on_a;
@@ -271,8 +272,9 @@ std::int64_t add_all_interfaces(Mesh& mesh, double tolerance) {
         const Matching m = match_bodies(mesh, those(std::move(on_a)), those(std::move(on_b)), distance);
         if (!m.on_a.empty()) found.push_back(interface_of(mesh, m, a, b, distance));
     }
-    mesh.append_all(found);
-    return static_cast<std::int64_t>(found.size());
+    const auto count = static_cast<std::int64_t>(found.size());
+    append_interfaces(mesh, std::move(found));
+    return count;
 }
 
 }  // namespace delam

@@ -20,6 +20,7 @@
 #include "mesh/pairing/interfaces.hpp"
 #include "mesh/pairing/mortar_interface.hpp"
 #include "mesh/points.hpp"
+#include "mesh/rule/mid_sides.hpp"
 
 namespace delam {
 
@@ -153,7 +154,7 @@ std::vector<std::vector<Facing>> connected(const Mesh& mesh, std::vector<Facing>
     return seams;
 }
 
-InterfaceGeometry interface_of(const Mesh& mesh, const std::vector<Facing>& seam, double distance) {
+NewInterface interface_of(const Mesh& mesh, const std::vector<Facing>& seam, double distance) {
     std::set<NodePair> pairs;
     std::vector<BoundaryFace> faces;
     std::vector<std::vector<NodePair>> of_faces;
@@ -164,8 +165,8 @@ InterfaceGeometry interface_of(const Mesh& mesh, const std::vector<Facing>& seam
             if (pair.first != pair.second) pairs.insert(pair);
     }
     const std::vector<NodePair> list(pairs.begin(), pairs.end());
-    InterfaceGeometry made = assemble_interface(mesh, list, faces, of_faces, distance);
-    made.body_a = made.body_b = mesh.cell_body(seam.front().face.cell);
+    NewInterface made = assemble_interface(mesh, list, faces, of_faces, distance);
+    made.geometry.body_a = made.geometry.body_b = mesh.cell_body(seam.front().face.cell);
     return made;
 }
 
@@ -394,8 +395,8 @@ std::int64_t add_seams(Mesh& mesh, double tolerance) {
     std::set<NodePair> paired;  // of interfaces of a body with itself, ascending nodes
     for (const InterfaceGeometry& own : mesh.interfaces())
         for (std::size_t p = 0; p < own.node_a.size() && own.body_a == own.body_b; ++p)
-            paired.insert(std::minmax(own.node_a[p], own.node_b[p]));
-    std::vector<InterfaceGeometry> made;
+            paired.insert(std::minmax(node_of_pair(mesh, own.node_a[p]), node_of_pair(mesh, own.node_b[p])));
+    std::vector<NewInterface> made;
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
         if (mesh.host_body(body)) continue;
         const double distance = (tolerance > 0.0 ? tolerance : 1e-6) * shortest_edge(mesh, mesh.body_cells(body));
@@ -408,8 +409,9 @@ std::int64_t add_seams(Mesh& mesh, double tolerance) {
         for (const std::vector<Facing>& seam : connected(mesh, std::move(facing)))
             made.push_back(interface_of(mesh, seam, distance));
     }
-    for (InterfaceGeometry& interface : made) mesh.append(std::move(interface));
-    return static_cast<std::int64_t>(made.size());
+    const auto count = static_cast<std::int64_t>(made.size());
+    append_interfaces(mesh, std::move(made));
+    return count;
 }
 
 std::int64_t add_self_contact(Mesh& mesh, double gap) {

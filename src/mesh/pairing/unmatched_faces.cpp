@@ -12,6 +12,7 @@
 #include "mesh/pairing/assemble_interface.hpp"
 #include "mesh/pairing/interfaces.hpp"
 #include "mesh/points.hpp"
+#include "mesh/rule/mid_sides.hpp"
 
 namespace delam {
 
@@ -190,11 +191,11 @@ std::int64_t UnmatchedFaces::append(Mesh& mesh, const std::map<std::int64_t, Tie
     }
     std::vector<BoundaryFace> outward_of_a;
     for (const BoundaryFace& face : on_) outward_of_a.push_back(turned(face));
-    InterfaceGeometry interface = assemble_interface(mesh, pairs, outward_of_a, FaceSide::b, rim_);
-    interface.body_a = a_;
-    interface.body_b = b_;
-    if (leaving_ == LeavingFaces::take) interface.reach = reach_;
-    return mesh.append(std::move(interface), std::move(made), places);
+    NewInterface interface = assemble_interface(mesh, pairs, outward_of_a, FaceSide::b, rim_);
+    interface.geometry.body_a = a_;
+    interface.geometry.body_b = b_;
+    if (leaving_ == LeavingFaces::take) interface.geometry.reach = reach_;
+    return append_interface(mesh, std::move(interface), std::move(made), std::move(places));
 }
 
 }  // namespace delam

@@ -49,6 +49,7 @@ public:
           carriers_(problem),
           dim_(problem.mesh->dimension()),
           dofs_(problem.mesh->node_count() * dim_) {
+        for (std::int32_t b = 0; b < problem.mesh->body_count(); ++b) rank_.push_back(modulus(problem, b));
         find_pairs();
         hang_nodes();
         for (const std::size_t p : closing_) close_ring(pairs_[p]);
@@ -76,6 +77,12 @@ private:
     std::vector<std::int64_t> bound_;  // jump rows for which constraints are solved
     std::vector<Row> open_;            // long constraints
 
+    std::vector<double> rank_;  // [bodies] modulus
+
+    double rank_of(std::int64_t node) const {
+        const std::int32_t body = problem_.mesh->node_body(node);
+        return body < 0 ? 0.0 : rank_[index(body)];
+    }
     bool displacement(std::int64_t id) const { return id < dofs_; }
     std::vector<double> nothing() const { return std::vector<double>(problem_.patterns.size(), 0.0); }
     // Adds factor * g to a right-hand side.
@@ -85,6 +92,7 @@ private:
     void find_pairs();
     void hang_nodes();
     void close_ring(const Pair& pair);
+    std::int64_t moved_node(const Pair& pair) const;
     std::int64_t choose_pivot(const Row& row, std::int64_t preferred_node) const;
     void take_constraints();
     // row += factor * displacement of a node
@@ -119,12 +127,6 @@ void Builder::hang_nodes() {
         if (pairs_of.contains(node)) roots.push_back(node);
     const auto first_body = static_cast<std::ptrdiff_t>(roots.size());
     for (const auto& [node, unused] : pairs_of) roots.push_back(node);
-    std::vector<double> rank;
-    for (std::int32_t b = 0; b < problem_.mesh->body_count(); ++b) rank.push_back(modulus(problem_, b));
-    const auto rank_of = [&](std::int64_t node) {
-        const std::int32_t body = problem_.mesh->node_body(node);
-        return body < 0 ? 0.0 : rank[index(body)];
-    };
     std::stable_sort(roots.begin() + first_body, roots.end(),
                      [&](std::int64_t a, std::int64_t b) { return rank_of(a) > rank_of(b); });
     std::map<std::int64_t, bool> met;
@@ -185,7 +187,7 @@ void Builder::close_ring(const Pair& pair) {
                 if (const double q = pair.frame[r * dim_ + i]; q != 0.0) row.terms[dofs_ + pair.first_row + r] -= q;
             add_gap(row, pair, -pair.frame[i]);
             solved_.reduce(row);
-            solved_.solve(row, choose_pivot(row, pair.b));
+            solved_.solve(row, choose_pivot(row, moved_node(pair)));
             continue;
         }
         for (std::int64_t k = 0; k < dim_; ++k) {
@@ -198,6 +200,19 @@ void Builder::close_ring(const Pair& pair) {
         row.terms[dofs_ + pair.first_row + i] = 1.0;
         solved_.solve(row, dofs_ + pair.first_row + i);
     }
+}
+
+// Returns the node that a pair with a tied node moves: b's or, where that is tied too, the one with the largest weight
+// on either side, of the softer body.
+std::int64_t Builder::moved_node(const Pair& pair) const {
+    if (carriers_.kind(pair.b) != Carriers::Kind::tied) return pair.b;
+    const auto main = [this](std::int64_t node) {
+        const auto of = carriers_.of(node);
+        return std::max_element(of.begin(), of.end(), [](const auto& p, const auto& q) { return p.second < q.second; })
+            ->first;
+    };
+    const std::int64_t a = main(pair.a), b = main(pair.b);
+    return rank_of(a) < rank_of(b) ? a : b;
 }
 
 // The largest coefficient among displacements of bodies, else of control nodes, else of jumps. The preferred node comes

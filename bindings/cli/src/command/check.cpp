@@ -20,6 +20,7 @@
 #include "result/result.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/units/magnitudes.hpp"
+#include "text/refusals.hpp"
 #include "text/say.hpp"
 #include "text/wording.hpp"
 
@@ -252,6 +253,20 @@ extern "C" void on_check_log(std::int32_t level, const char* text, void* user) {
         said.warnings.push_back(std::move(warning));
 }
 
+Found errors_of(const Failure& failure) {
+    const auto* several = dynamic_cast<const Refusals*>(&failure);
+    const std::vector<SceneFailure> all = several == nullptr ? std::vector<SceneFailure>{} : several->all();
+    Found out = Found::array();
+    const auto add = [&](const Failure& each) {
+        const Place& place = each.place();
+        out.push_back({{"file", place.file}, {"line", nullptr}, {"key", place.path}, {"message", each.text()}});
+        if (place.line > 0) out.back()["line"] = place.line;
+    };
+    if (several == nullptr) add(failure);
+    for (const SceneFailure& each : all) add(each);
+    return out;
+}
+
 // drawing: is filled if it is there.
 Found examined(const std::string& scene_file, const std::vector<std::string>& settings, const Caller& caller,
                nlohmann::json* drawing) {
@@ -305,10 +320,7 @@ int check(const std::string& scene_file, const std::vector<std::string>& setting
         say("{}\n", examined(scene_file, settings, caller, wanted).dump(2, ' ', false, replace));
     } catch (const Failure& failure) {
         if (failure.code() != exit_scene) throw;  // the scene may be right
-        const Place& place = failure.place();
-        Found error{{"file", place.file}, {"line", nullptr}, {"key", place.path}, {"message", failure.text()}};
-        if (place.line > 0) error["line"] = place.line;
-        const Found found{{"correct", false}, {"file", scene_file}, {"errors", {error}}};
+        const Found found{{"correct", false}, {"file", scene_file}, {"errors", errors_of(failure)}};
         say("{}\n", found.dump(2, ' ', false, replace));
         return failure.code();
     }

@@ -69,12 +69,10 @@ ViewInterface interface_of(const Model& model, std::size_t index) {
     out.body_a = a;
     out.body_b = b;
     out.per_face = static_cast<std::size_t>(per_face);
-    out.nodes_a.resize(static_cast<std::size_t>(pairs));
-    out.nodes_b.resize(out.nodes_a.size());
     out.faces.resize(static_cast<std::size_t>(faces * per_face));
-    call(model.context.get(),
-         delam_mesh_interface_pairs(model.mesh.get(), number, out.nodes_a.data(), out.nodes_b.data(), nullptr, nullptr),
-         what);
+    PairNodes nodes = nodes_of_pairs(model, number, what);
+    out.nodes_a = std::move(nodes.a);
+    out.nodes_b = std::move(nodes.b);
     call(model.context.get(), delam_mesh_interface_faces(model.mesh.get(), number, out.faces.data()), what);
     return out;
 }

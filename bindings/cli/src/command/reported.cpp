@@ -6,6 +6,7 @@
 #include <string>
 
 #include "text/error.hpp"
+#include "text/refusals.hpp"
 #include "text/say.hpp"
 
 namespace cli {
@@ -23,6 +24,9 @@ int failed(const std::string& message, int code) {
 int reported(const std::function<int()>& command) {
     try {
         return command();
+    } catch (const Refusals& refusals) {
+        for (const SceneFailure& each : refusals.all()) (void)failed(each.what(), each.code());
+        return refusals.code();
     } catch (const Failure& failure) {
         return failed(failure.what(), failure.code());
     } catch (const std::bad_alloc&) {

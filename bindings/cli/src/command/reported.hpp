@@ -6,7 +6,7 @@
 
 namespace cli {
 
-// Returns the exit code of a command; what it throws is said in one line.
+// Returns the exit code of a command; what it throws is said in one line, several refusals in one each.
 int reported(const std::function<int()>& command);
 
 }  // namespace cli

@@ -43,6 +43,7 @@ extern "C" std::int32_t on_progress(const char* stage, std::int64_t done, std::i
 struct Log {
     Progress& progress;
     const Model& model;
+    const Scene& scene;
     std::vector<std::string>* of_scene;  // keeps the warnings before the first step; null: there was one
 };
 
@@ -52,7 +53,7 @@ extern "C" void on_log(std::int32_t level, const char* text, void* user) {
     const Log& log = *static_cast<Log*>(user);
     if (level > 1) return;
     try {
-        const std::string said = said_of_scene(text, log.model);
+        const std::string said = with_elements(said_of_scene(text, log.model), {}, log.scene).message;
         if (level == 1 && log.of_scene != nullptr) log.of_scene->push_back(said);
         log.progress.note(fmt::format("{}: {}", level == 0 ? "error" : "warning", said));
     } catch (const std::exception&) {
@@ -134,9 +135,9 @@ public:
             const std::int32_t status = delam_solver_advance(solver_.get(), time);
             if (status == DELAM_CANCELLED) return stopped(outcome);
             if (status != DELAM_OK && status != DELAM_NOT_CONVERGED) {
+                const std::string text = named(delam_context_message(model_.context.get()), scene_, model_);
                 outcome.reason = fmt::format("step {}, time {}: {} ({})", state_.step + 1, time,
-                                             named(delam_context_message(model_.context.get()), scene_, model_),
-                                             delam_status_name(status));
+                                             with_elements(text, {}, scene_).message, delam_status_name(status));
                 return status == DELAM_LIMIT ? exit_not_converged : exit_numerical;
             }
             to_the_end([this] { choose(); });
@@ -418,6 +419,11 @@ int analyse(const Analysis& of) {
             complain("delam: {} with: {}{}\n", done > 0 ? "go on" : "start again", again, done > 0 ? " --resume" : "");
         else
             complain("delam: {}\n", outcome.reason);
+        if (code != exit_interrupted && scene.imported && option_text(solver.get(), "kinematics") == "corotational")
+            complain(
+                "delam: with large rotations, NLGEOM=YES of the deck, an analysis may stop where small ones go on: "
+                "--set "
+                "solver.kinematics=linear\n");
         return code;
     }
     if (code == exit_not_converged)
@@ -456,7 +462,7 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
     const std::int64_t first = state ? state->state.step : 0;
     progress.begin_after(first);
     std::vector<std::string> warnings = warnings_of(model, scene);
-    Log log{progress, model, &warnings};
+    Log log{progress, model, scene, &warnings};
     delam_context_set_log(model.context.get(), on_log, &log);
     say("delam {} ({}): {}{}\n", delam_version(), delam_commit(), scene_file,
         scene.title.empty() ? "" : ", " + scene.title);

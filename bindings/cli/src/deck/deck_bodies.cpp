@@ -9,8 +9,12 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "deck/abaqus/keywords.hpp"
+#include "deck/cards/deck.hpp"
 #include "mesh/cell_shape.hpp"
+#include "text/toml_text.hpp"
 
 namespace cli::abaqus {
 
@@ -29,6 +33,20 @@ constexpr std::size_t most_pairs = 1000000;
 void sort_once(std::vector<std::int32_t>& bodies) {
     std::sort(bodies.begin(), bodies.end());
     bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+}
+
+// The element of a face, as the deck has it, and its name for people. Null: its faces are those of bodies, to which it
+// is tied.
+struct OfDeck {
+    const Part* scope;
+    const Element* element;
+    std::string name;
+};
+OfDeck of_deck(const Model& model, const CohesiveFace& face) {
+    const Face& lower = face.set->lower[face.element];
+    const auto [scope, at] = cohesive_element(model, {lower.begin(), std::find(lower.begin(), lower.end(), -1)});
+    if (at == nullptr) return {scope, at, fmt::format("an element of \"{}\"", face.set->name)};
+    return {scope, at, fmt::format("element {} of \"{}\"", full_name(*scope, std::to_string(at->id)), face.set->name)};
 }
 
 }  // namespace
@@ -111,6 +129,46 @@ std::vector<std::size_t> FaceBodies::order_by_sides(const std::vector<std::int64
         if (sides) return order;
     }
     return {};
+}
+
+void refuse_face(const Model& model, const MeshData& mesh, const FaceBodies& faces, const CohesiveFace& face,
+                 const Place& section) {
+    const auto [scope, at, name] = of_deck(model, face);
+    if (at == nullptr) throw SceneFailure(section, fmt::format("\"{}\" has a face at no body", face.set->name));
+    const Face& own = face.upper ? face.set->upper[face.element] : face.set->lower[face.element];
+    const std::vector<std::int32_t> bodies = faces.of(own);
+    const auto body = [&](std::size_t k) { return toml_text(mesh.body_names[static_cast<std::size_t>(bodies[k])]); };
+    if (!bodies.empty())
+        throw SceneFailure(at->place, fmt::format("{} has a face between {} and {}: its nodes must be those of one of "
+                                                  "them",
+                                                  name, body(0), body(1)));
+    const auto [owner, cell] = cell_with(model, {own.begin(), std::find(own.begin(), own.end(), -1)});
+    if (cell != nullptr)
+        throw SceneFailure(
+            cell->place,
+            fmt::format("element {} has the nodes of a face of {} ({}), and no such side: it is degenerate, or its "
+                        "nodes are in another order",
+                        full_name(*owner, std::to_string(cell->id)), name, at->place.text()));
+    std::vector<std::int64_t> nodes, better;
+    for (std::size_t k = 0; k < at->nodes.size(); ++k) nodes.push_back(node_number(*scope, *at, k));
+    for (const std::size_t k : faces.order_by_sides(nodes)) better.push_back(at->nodes[k]);
+    throw SceneFailure(
+        at->place,
+        fmt::format("{} has a face that is no side of a cell: the first half of its nodes is one face, the second half "
+                    "the other{}",
+                    name, better.empty() ? "" : fmt::format("; write {}, {}", at->id, fmt::join(better, ", "))));
+}
+
+void refuse_thick(const Model& model, const MeshData& mesh, const FaceBodies& faces, const CohesiveFace& face,
+                  double gap, const Place& section) {
+    const OfDeck of = of_deck(model, face);
+    const std::vector<std::int32_t> bodies = faces.of(face.set->lower[face.element]);
+    throw SceneFailure(
+        of.element == nullptr ? section : of.element->place,
+        fmt::format("{} lies within {}, and its faces are {:.6g} apart: within one body the nodes of both faces "
+                    "coincide; {}",
+                    of.name, toml_text(mesh.body_names[static_cast<std::size_t>(bodies.front())]), gap,
+                    sections_of_one_side));
 }
 
 std::vector<std::int32_t> FaceBodies::of(const Face& face) const {

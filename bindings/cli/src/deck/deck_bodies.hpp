@@ -3,12 +3,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "deck/abaqus/abaqus_model.hpp"
 #include "mesh/mesh_data.hpp"
 #include "text/error.hpp"
 
@@ -32,6 +34,19 @@ private:
     std::int32_t dimension_;
     std::map<FaceKey, std::vector<std::int32_t>> bodies_;
 };
+
+// A face of a cohesive element of the mesh.
+struct CohesiveFace {
+    const CohesiveSet* set;
+    std::size_t element;
+    bool upper;
+};
+// Throw SceneFailure at the element: it has no body there; its faces are `gap` apart, and lie in one body. section: of
+// the elements, for one that the deck knows no more.
+[[noreturn]] void refuse_face(const Model& model, const MeshData& mesh, const FaceBodies& faces,
+                              const CohesiveFace& face, const Place& section);
+[[noreturn]] void refuse_thick(const Model& model, const MeshData& mesh, const FaceBodies& faces,
+                               const CohesiveFace& face, double gap, const Place& section);
 
 struct BodyPair {
     std::int32_t a = 0, b = 0;  // a < b

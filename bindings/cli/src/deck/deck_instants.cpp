@@ -35,9 +35,10 @@ void Instants::add(const Step& step, double begin) {
         substep_ = std::min(substep_, step.least_increment / sizes_.back());
 }
 
-std::string Instants::text(double end) const {
-    const std::string solver =
-        substep_ < 1 ? fmt::format("[solver]\nsmallest_step = {}\n\n", toml_number(substep_)) : "";
+std::string Instants::text(double end, const std::string& solver_keys) const {
+    std::string solver = solver_keys;
+    if (substep_ < 1) solver += fmt::format("smallest_step = {}\n", toml_number(substep_));
+    if (!solver.empty()) solver = "[solver]\n" + solver + "\n";
     const auto [least, most] = std::minmax_element(sizes_.begin(), sizes_.end());
     if (*most - *least <= 1e-9 * *most)
         return fmt::format("[time]\nstart = 0.0\nend = {}\nsteps = {}\n\n", toml_number(end), instants_.size()) +

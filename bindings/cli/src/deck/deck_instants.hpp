@@ -13,8 +13,8 @@ class Instants {
 public:
     // Adds those of a step that begins at a time.
     void add(const Step& step, double begin);
-    // Returns [time], up to the end of the last step, and what [solver] says of substeps.
-    [[nodiscard]] std::string text(double end) const;
+    // Returns [time], up to the end of the last step, and [solver] with these keys and what it says of substeps.
+    [[nodiscard]] std::string text(double end, const std::string& solver_keys) const;
 
 private:
     std::vector<double> instants_, sizes_;

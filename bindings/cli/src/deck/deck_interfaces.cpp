@@ -9,7 +9,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "deck/abaqus/keywords.hpp"
 #include "deck/deck_bodies.hpp"
@@ -24,10 +23,6 @@ namespace {
 
 // A small part more than the distance of the faces, so that rounding of coordinates does not part them.
 constexpr double allowance = 1.001;
-// Stiffness of an interface whose deck gives none, in stiffnesses of a cell: that of Abaqus' penalty contact, as its
-// manual says; half and twice of it change the compliance of an interface by a tenth of a cell's (ctest -R
-// cli_deck_keywords).
-constexpr double penalty_factor = 10;
 // Largest distance at which nodes match, in shortest edges: less than half, at which a node may have two others as
 // near.
 constexpr double most_tolerance = 0.49;
@@ -42,8 +37,10 @@ struct Held {
     double tolerance = 0;  // at which nodes match, over the shortest edge; 0: that of the scene
     bool open = false;     // surfaces, whose distance counts
     double adjust = 0;
-    bool bonded = false;  // tied
-    bool shared = false;  // bonded where the bodies share nodes
+    bool bonded = false;   // tied
+    bool shared = false;   // bonded where the bodies share nodes
+    std::string joined{};  // the set of these faces and others to which an equal section gives the law; empty: none
+    Vector shear_axis{1, 0, 0};  // projected: axis 1 of a law with two stiffnesses in shear
 };
 
 class Interfaces {
@@ -57,6 +54,7 @@ public:
           edge_(shortest_edge(mesh)),
           places_(mesh, edge_),
           cohesive_sections_(deck, model, &Part::cohesive_sections),
+          laws_(deck, mesh.dimension, edge_),
           neighbours_(mesh.body_names.size()) {
         for (const BodyPair& pair : pairs_of_bodies(mesh, faces_, edge_, model.file)) {
             touching_[{pair.a, pair.b}] = pair;
@@ -72,7 +70,7 @@ public:
         for (const Tie& tie : model_.ties) add_tie(tie);
         if (!deck_.adhering.empty()) add_everywhere();
         for (const auto& [key, pair] : touching_) bond_shared(pair);
-        std::string out = laws_;
+        std::string out = laws_.text();
         for (const Held& held : held_) out += entry(held);
         for (const auto& [key, pair] : touching_) {
             if (find(pair.a, pair.b) != nullptr) continue;
@@ -165,10 +163,16 @@ private:
             return;
         } else if (other->law.empty()) {
             *other = held;
+        } else if (other->law == held.law && !held.joined.empty() && other->joined == held.joined &&
+                   other->matching == held.matching) {
+            other->set = held.joined;
+            other->gap = std::max(other->gap, held.gap);
+            other->tolerance = std::max(other->tolerance, held.tolerance);
         } else if (other->law != held.law || other->set != held.set) {
             throw SceneFailure(held.place,
-                               fmt::format("{} and {} are held together by {} already: an interface has one "
-                                           "law and one set",
+                               fmt::format("{} and {} are held together by {} already: an interface has one law, of "
+                                           "one set or of sections that say the same; give the cells on one side of "
+                                           "each part an *ELSET and a *SOLID SECTION of their own",
                                            body(held.a), body(held.b), other->place.text()));
         }
     }
@@ -196,27 +200,11 @@ private:
                                         const Place& section) const {
         const std::vector<std::int32_t> bodies = faces_.of(upper ? set.upper[element] : set.lower[element]);
         if (bodies.size() == 1) return bodies[0];
-        const Face& first = set.lower[element];
-        const auto [scope, at] = cohesive_element(model_, {first.begin(), std::find(first.begin(), first.end(), -1)});
-        if (at == nullptr) throw SceneFailure(section, fmt::format("\"{}\" has a face at no body", set.name));
-        const std::string name =
-            fmt::format("element {} of \"{}\"", full_name(*scope, std::to_string(at->id)), set.name);
-        if (!bodies.empty())
-            throw SceneFailure(at->place, fmt::format("{} has a face between {} and {}: its nodes must be those of one "
-                                                      "of them",
-                                                      name, body(bodies[0]), body(bodies[1])));
-        std::vector<std::int64_t> nodes, better;
-        for (const std::int64_t id : at->nodes) nodes.push_back(node_number(*scope, id, at->place));
-        for (const std::size_t k : faces_.order_by_sides(nodes)) better.push_back(at->nodes[k]);
-        throw SceneFailure(
-            at->place,
-            fmt::format("{} has a face that is no side of a cell: the first half of its nodes is one face, the second "
-                        "half the other{}",
-                        name, better.empty() ? "" : fmt::format("; write {}, {}", at->id, fmt::join(better, ", "))));
+        refuse_face(model_, mesh_, faces_, {&set, element, upper}, section);
     }
 
     void add_cohesive(const CohesiveSet& set) {
-        const Section* found = cohesive_sections_.of(set.name).section;
+        const auto [found, scope] = cohesive_sections_.of(set.name);
         if (found == nullptr)
             throw SceneFailure(model_.file,
                                fmt::format("the cohesive elements \"{}\" have no *COHESIVE SECTION", set.name));
@@ -230,10 +218,7 @@ private:
             const bool tied = !set.apart.empty() && set.apart[i] >= 0;
             const double gap = tied ? set.apart[i] : gap_of(set.lower[i], set.upper[i]);
             if (a == b && (tied || gap > 1e-6 * edge_))
-                throw SceneFailure(section.place,
-                                   fmt::format("an element of \"{}\" lies within {}, and its faces are {:.6g} apart: "
-                                               "within one body the nodes of both faces coincide; {}",
-                                               set.name, body(a), gap, sections_of_one_side));
+                refuse_thick(model_, mesh_, faces_, {&set, i, false}, gap, section.place);
             loose = loose || tied;
             sum += gap;
             least = std::min(least, gap);
@@ -251,10 +236,8 @@ private:
             throw SceneFailure(section.place, fmt::format("THICKNESS=GEOMETRY, and the elements are {:.6g} to {:.6g} "
                                                           "thick: one law has one stiffness; give a section to each",
                                                           least, most));
-        const std::string law = cohesive_law(material, thickness);
-        if (!section.orientation.empty() && sheared_.contains(law))
-            throw SceneFailure(section.place,
-                               "ORIENTATION with two stiffnesses in shear is not imported: give shear_axis");
+        const std::string law = laws_.of_material(material, thickness);
+        const Vector axis = laws_.two_shears(law) ? shear_axis(section, *scope) : Vector{1, 0, 0};
         for (const auto& [bodies, gap] : gaps) {
             const bool apart = gap > 1e-6 * edge_;
             // The nodes of both sides belong together, and no others are as near.
@@ -264,6 +247,8 @@ private:
                                                     paired ? "the nodes of its two sides are paired"
                                                            : "the faces beside it are projected upon each other"));
             Held held{bodies.first, bodies.second, law, set.faces, 0.0, (paired || !apart) && !loose, section.place};
+            held.shear_axis = axis;
+            held.joined = set.joined;
             if (paired)
                 held.tolerance = allowance * gap / edge_;
             else if (apart)
@@ -277,25 +262,17 @@ private:
                             set.name));
     }
 
-    std::string cohesive_law(const MaterialCards& material, double thickness) {
-        if (material.elastic != "TRACTION")
-            throw SceneFailure(material.place,
-                               "material \"" + material.name + "\" of cohesive elements needs *ELASTIC, TYPE=TRACTION");
-        Numbers stiffness = material.constants;
-        for (double& k : stiffness) k /= thickness;
-        return new_law("material", material.name, stiffness, thickness, material.damage, material.elastic_place);
-    }
-
-    // The law of this name and thickness, made where it is new.
-    std::string new_law(const std::string& of, const std::string& name, const Numbers& stiffness, double thickness,
-                        const DamageCards& damage, const Place& place) {
-        const auto [known, inserted] = law_names_.emplace(std::pair(of + " " + name, thickness), name);
-        if (!inserted) return known->second;
-        const std::size_t alike = ++laws_of_name_[name];
-        if (alike > 1) known->second = fmt::format("{} ({})", name, alike);
-        laws_ += law_text(known->second, stiffness, thickness, damage, mesh_.dimension, place, deck_.changed) + "\n";
-        if (two_shears(stiffness, mesh_.dimension)) sheared_.insert(known->second);
-        return known->second;
+    // Axis 1 of the orientation of a section, projected; without one, x.
+    [[nodiscard]] Vector shear_axis(const Section& section, const Part& scope) const {
+        if (section.orientation.empty()) return {1, 0, 0};
+        const Orientation& o = orientation_of(deck_, section);
+        if (o.of_each_element())
+            throw SceneFailure(section.place,
+                               fmt::format("ORIENTATION={} differs from element to element, and an interface has one "
+                                           "first axis of shear: give one orientation",
+                                           section.orientation));
+        const Vector axis = o.axes(o.points, {}, o.place)[0];
+        return section.part.empty() ? axis : turned_by(scope, axis);
     }
 
     [[nodiscard]] std::string faces_named(const Entry& raw) const {
@@ -321,7 +298,7 @@ private:
         const std::string master = faces_named(pair.master);
         std::string law;
         if (interaction.cohesive) {
-            law = interaction_law(interaction);
+            law = laws_.of_interaction(interaction);
             require_extent(pair, interaction, slave, master);
         }
         const std::set<std::int32_t>&slaves = bodies_of(slave), &masters = bodies_of(master);
@@ -425,35 +402,7 @@ private:
                                                       " needs surfaces in *CONTACT PROPERTY ASSIGNMENT");
         for (const auto& [key, pair] : touching_)
             if (pair.shared == 0 && find(pair.a, pair.b) == nullptr)
-                add({pair.a, pair.b, interaction_law(interaction), "", 0.0, true, deck_.adhering_place});
-    }
-
-    std::string interaction_law(const InteractionCards& interaction) {
-        Numbers stiffness = interaction.stiffness;
-        if (stiffness.empty()) {
-            stiffness.assign(3, penalty_factor * softest() / edge_);
-            say_once(deck_.changed,
-                     fmt::format("interaction \"{}\": no stiffness; here that of Abaqus' contact, about {} "
-                                 "times that of a cell: {:.6g}",
-                                 interaction.name, penalty_factor, stiffness[0]));
-        }
-        return new_law("interaction", interaction.name, stiffness, 1.0, interaction.damage,
-                       interaction.stiffness_place);
-    }
-
-    // The least Young's modulus of the materials of bodies.
-    [[nodiscard]] double softest() const {
-        double out = std::numeric_limits<double>::infinity();
-        for (const Section& section : deck_.sections) {
-            if (!section.thickness.empty()) continue;
-            const MaterialCards& m = named(deck_.materials, section.material, "material", section.place);
-            const std::size_t moduli = m.elastic == "ISOTROPIC" ? 1 : m.elastic == "LAMINA" ? 2 : 3;
-            // D1111, D2222 and D3333 stand at 0, 2 and 5.
-            const bool stiffnesses = m.elastic == "ORTHOTROPIC";
-            for (std::size_t i = 0; i < moduli; ++i)
-                out = std::min(out, m.constants.at(stiffnesses ? (i + 1) * (i + 2) / 2 - 1 : i));
-        }
-        return std::isfinite(out) ? out : 1.0;
+                add({pair.a, pair.b, laws_.of_interaction(interaction), "", 0.0, true, deck_.adhering_place});
     }
 
     // The slave surface, or its bonded nodes, determine what adheres; the master must not say less.
@@ -494,7 +443,9 @@ private:
         out += held.bonded        ? "bonded = true\n"
                : held.law.empty() ? "contact = true\n"
                                   : fmt::format("law = {}\n", toml_text(held.law));
-        if (sheared_.contains(held.law)) out += "shear_axis = [1, 0, 0]  # x projected: axis 1 of the deck\n";
+        if (laws_.two_shears(held.law))
+            out += fmt::format("shear_axis = {}  # projected: axis 1 of the deck\n",
+                               toml_list(std::vector<double>(held.shear_axis.begin(), held.shear_axis.end())));
         if (held.shared) out += "shared = \"bonded\"\n";
         if (!held.matching) out += "projected = true\n";
         if (held.tolerance > 0) out += fmt::format("tolerance = {}\n", toml_number(held.tolerance));
@@ -513,15 +464,12 @@ private:
     double edge_;
     FacePlaces places_;
     SectionIndex cohesive_sections_;
+    DeckLaws laws_;
     std::map<std::pair<std::int32_t, std::int32_t>, BodyPair> touching_;
     std::vector<std::vector<std::int32_t>> neighbours_;  // by body: those that touch it, ascending
-    std::set<std::string> sheared_;                      // laws with two stiffnesses in shear
     std::vector<Held> held_;
     std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> held_by_;  // by bodies
     std::map<std::string, std::set<std::int32_t>> bodies_of_;               // by surface
-    std::map<std::string, std::size_t> laws_of_name_;
-    std::map<std::pair<std::string, double>, std::string> law_names_;
-    std::string laws_;
 };
 
 }  // namespace

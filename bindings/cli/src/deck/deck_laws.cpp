@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -15,8 +16,18 @@ namespace cli::abaqus {
 
 namespace {
 
+// Stiffness of an interface whose deck gives none, in stiffnesses of a cell: that of Abaqus' penalty contact, as its
+// manual says; half and twice of it change the compliance of an interface by a tenth of a cell's (ctest -R
+// cli_deck_keywords).
+constexpr double penalty_factor = 10;
 // max((t_n/s_n)^2, (t_t/s_t)^2) = 1 is the limit of a power law whose exponent grows.
 constexpr double maximum_exponent = 100;
+
+// True if the two shears have different stiffnesses.
+bool shears_differ(const Numbers& stiffness, std::int32_t dimension) {
+    return dimension == 3 && stiffness.size() > 2 &&
+           std::abs(stiffness[1] - stiffness[2]) > 1e-9 * std::abs(stiffness[1]);
+}
 
 // Ktt, T and Gt play no part in the plane; in space the law is the same in both directions of sliding.
 void require_isotropic(const Numbers& values, const char* what, std::int32_t dimension, const Place& place) {
@@ -32,7 +43,12 @@ void require_positive(const Numbers& values, std::size_t count, const char* what
         if (!(values[i] > 0)) throw SceneFailure(place, fmt::format("{} {}: must be > 0", what, values[i]));
 }
 
-// The toughness of a mode of peak `strength`.
+// Returns the peak of a mode that *DAMAGE INITIATION gives as a stress, a nominal strain or a jump.
+double peak_of(const std::string& initiation, double value, double stiffness, double thickness) {
+    return initiation.back() == 'S' ? value : value * stiffness * (initiation.back() == 'E' ? thickness : 1.0);
+}
+
+// A mode by its stiffness and its peak, `strength`.
 struct Mode {
     double stiffness;
     double strength;
@@ -260,11 +276,10 @@ std::string kind_of(const std::string& name, const DamageCards& damage, std::vec
 
 // In space the law of a deck may have two stiffnesses in shear, but the energies of onset and of toughness are one.
 void require_one_shear(const Numbers& stiffness, const DamageCards& cards, std::int32_t dimension) {
-    if (!two_shears(stiffness, dimension))
+    if (!shears_differ(stiffness, dimension))
         return require_isotropic(cards.strengths, cards.initiation.c_str(), dimension, cards.initiation_place);
-    const bool strains = cards.initiation.back() == 'E';
     const auto onset = [&](std::size_t m) {
-        const double peak = cards.strengths[m] * (strains ? stiffness[m] : 1.0);
+        const double peak = peak_of(cards.initiation, cards.strengths[m], stiffness[m], 1.0);
         return peak / stiffness[m] * peak / 2;
     };
     const double first = onset(1), second = cards.strengths.size() > 2 ? onset(2) : HUGE_VAL;
@@ -280,13 +295,7 @@ void require_one_shear(const Numbers& stiffness, const DamageCards& cards, std::
                            "table of modes");
 }
 
-}  // namespace
-
-bool two_shears(const Numbers& stiffness, std::int32_t dimension) {
-    return dimension == 3 && stiffness.size() > 2 &&
-           std::abs(stiffness[1] - stiffness[2]) > 1e-9 * std::abs(stiffness[1]);
-}
-
+// Returns the law as [[laws]] of a scene, and adds what differs from that of the deck to `changed`.
 std::string law_text(const std::string& name, const Numbers& stiffness, double thickness, const DamageCards& cards,
                      std::int32_t dimension, const Place& place, std::vector<std::string>& changed) {
     if (cards.initiation.empty() || cards.evolution.empty())
@@ -294,14 +303,13 @@ std::string law_text(const std::string& name, const Numbers& stiffness, double t
                            fmt::format("\"{}\" has no {}: an interface that stays whole is no law; bodies that "
                                        "share nodes are bonded",
                                        name, cards.initiation.empty() ? "*DAMAGE INITIATION" : "*DAMAGE EVOLUTION"));
-    const bool sheared = two_shears(stiffness, dimension);
+    const bool sheared = shears_differ(stiffness, dimension);
     require_positive(stiffness, sheared ? 3 : 2, "stiffness", place);
     require_positive(cards.strengths, 2, cards.initiation.c_str(), cards.initiation_place);
     require_one_shear(stiffness, cards, dimension);
-    const bool strains = cards.initiation.back() == 'E';
     Mode modes[2];
     for (std::size_t m = 0; m < 2; ++m)
-        modes[m] = {stiffness[m], cards.strengths[m] * (strains ? stiffness[m] * thickness : 1.0)};
+        modes[m] = {stiffness[m], peak_of(cards.initiation, cards.strengths[m], stiffness[m], thickness)};
     const DamageCards damage = cards.mixed_mode == "TABULAR" ? with_criterion(name, cards, modes, changed) : cards;
     const Numbers toughness = toughness_of(name, damage, modes, dimension, changed);
     require_positive(toughness, 2, "toughness", damage.evolution_place);
@@ -337,6 +345,54 @@ std::string law_text(const std::string& name, const Numbers& stiffness, double t
         out += "]\n";
     }
     return out;
+}
+
+}  // namespace
+
+std::string DeckLaws::of_material(const MaterialCards& material, double thickness) {
+    if (material.elastic != "TRACTION")
+        throw SceneFailure(material.place,
+                           "material \"" + material.name + "\" of cohesive elements needs *ELASTIC, TYPE=TRACTION");
+    Numbers stiffness = material.constants;
+    for (double& k : stiffness) k /= thickness;
+    return law("material", material.name, stiffness, thickness, material.damage, material.elastic_place);
+}
+
+std::string DeckLaws::of_interaction(const InteractionCards& interaction) {
+    Numbers stiffness = interaction.stiffness;
+    if (stiffness.empty()) {
+        stiffness.assign(3, penalty_factor * softest() / edge_);
+        say_once(deck_.changed, fmt::format("interaction \"{}\": no stiffness; here that of Abaqus' contact, about {} "
+                                            "times that of a cell: {:.6g}",
+                                            interaction.name, penalty_factor, stiffness[0]));
+    }
+    return law("interaction", interaction.name, stiffness, 1.0, interaction.damage, interaction.stiffness_place);
+}
+
+std::string DeckLaws::law(const std::string& of, const std::string& name, const Numbers& stiffness, double thickness,
+                          const DamageCards& damage, const Place& place) {
+    const auto [known, inserted] = names_.emplace(std::pair(of + " " + name, thickness), name);
+    if (!inserted) return known->second;
+    const std::size_t alike = ++alike_[name];
+    if (alike > 1) known->second = fmt::format("{} ({})", name, alike);
+    text_ += law_text(known->second, stiffness, thickness, damage, dimension_, place, deck_.changed) + "\n";
+    if (shears_differ(stiffness, dimension_)) sheared_.insert(known->second);
+    return known->second;
+}
+
+// The least Young's modulus of the materials of bodies.
+double DeckLaws::softest() const {
+    double out = std::numeric_limits<double>::infinity();
+    for (const Section& section : deck_.sections) {
+        if (!section.thickness.empty()) continue;
+        const MaterialCards& m = named(deck_.materials, section.material, "material", section.place);
+        const std::size_t moduli = m.elastic == "ISOTROPIC" ? 1 : m.elastic == "LAMINA" ? 2 : 3;
+        // D1111, D2222 and D3333 stand at 0, 2 and 5.
+        const bool stiffnesses = m.elastic == "ORTHOTROPIC";
+        for (std::size_t i = 0; i < moduli; ++i)
+            out = std::min(out, m.constants.at(stiffnesses ? (i + 1) * (i + 2) / 2 - 1 : i));
+    }
+    return std::isfinite(out) ? out : 1.0;
 }
 
 }  // namespace cli::abaqus

@@ -50,7 +50,7 @@ public:
         for (auto& [key, history] : histories_) history.hold_until(time_);
         for (auto& [body, history] : heated_) history.hold_until(time_);
         say_width();
-        std::string out = instants_.text(time_);
+        std::string out = instants_.text(time_, deck_.solver_keys);
         std::string loads;
         std::map<std::string, std::vector<std::size_t>> held;  // places with nothing but 0
         std::vector<std::pair<std::string, Place>> order;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -16,6 +18,8 @@ namespace cli::abaqus {
 namespace {
 
 constexpr std::size_t most_equations = 200;
+// Nodes of a *DISTRIBUTING, each of which is a term in up to six equations: a megabyte of text.
+constexpr std::size_t most_distributed = 1000;
 
 using Row = std::array<double, 3>;
 
@@ -64,11 +68,49 @@ std::vector<Row> complement(std::vector<Row> basis, std::size_t dimension) {
     return {basis.begin() + static_cast<std::ptrdiff_t>(given), basis.end()};
 }
 
-// A point at the distance r from the centre of a rotation w moves along axis a by w . (r x e_a).
-Row lever(const Row& r, std::size_t axis) {
-    const Row d = axis_row(axis);
-    return {r[1] * d[2] - r[2] * d[1], r[2] * d[0] - r[0] * d[2], r[0] * d[1] - r[1] * d[0]};
+Row cross(const Row& a, const Row& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+
+// A point at the distance r from the centre of a rotation w moves along axis a by w . (r x e_a).
+Row lever(const Row& r, std::size_t axis) { return cross(r, axis_row(axis)); }
+
+// A term of an equation. place: the lines of a table that name it.
+std::string line_of(std::string place, std::size_t axis, double coefficient) {
+    while (!place.empty() && place.back() == '\n') place.pop_back();
+    for (std::size_t i = 0; (i = place.find('\n', i)) != std::string::npos; i += 2) place.replace(i, 1, ", ");
+    return fmt::format("    {{ {}, component = [\"{}\"], coefficient = {} }},\n", place, axis_names[axis],
+                       toml_number(coefficient));
+}
+
+// The inertia of points with weights about their centre.
+class Inertia {
+public:
+    // arms: from the centre. nullopt: the points leave a rotation open.
+    static std::optional<Inertia> of(const std::vector<Row>& arms, const std::vector<double>& weights,
+                                     std::size_t dimension) {
+        Inertia out;
+        for (std::size_t i = 0; i < arms.size(); ++i)
+            for (std::size_t a = 0; a < 3; ++a)
+                for (std::size_t b = 0; b < 3; ++b)
+                    out.j_[a][b] += weights[i] * ((a == b ? dot(arms[i], arms[i]) : 0.0) - arms[i][a] * arms[i][b]);
+        // Points in the plane turn about z alone.
+        if (dimension == 2) out.j_[0] = axis_row(0), out.j_[1] = axis_row(1), out.j_[2] = {0, 0, out.j_[2][2]};
+        const double size = out.j_[2][2] + (dimension == 3 ? out.j_[0][0] + out.j_[1][1] : 0.0);
+        const double scale = dimension == 3 ? size * size * size : size;
+        if (!(size > 0) || !(dot(out.j_[0], cross(out.j_[1], out.j_[2])) > 1e-9 * scale)) return std::nullopt;
+        return out;
+    }
+    [[nodiscard]] Row inverse_times(const Row& right) const {
+        const double whole = dot(j_[0], cross(j_[1], j_[2]));
+        Row out{};
+        for (std::size_t k = 0; k < 3; ++k) out[k] = dot(cross(j_[(k + 1) % 3], j_[(k + 2) % 3]), right) / whole;
+        return out;
+    }
+
+private:
+    std::array<Row, 3> j_{};
+};
 
 }  // namespace
 
@@ -82,7 +124,7 @@ References::References(const Deck& deck, const Model& model, const MeshData& mes
     : model_(model), mesh_(mesh), dimension_(static_cast<std::size_t>(mesh.dimension)), bodies_(mesh) {
     for (const auto& [set, nodes] : mesh.node_sets)
         if (nodes.size() == 1) set_of_.emplace(nodes.front(), set);
-    for (const Coupling& coupling : deck.couplings) couple(coupling);
+    for (const Coupling& coupling : deck.couplings) coupling.in_mean ? distribute(coupling) : couple(coupling);
     for (const auto& terms : deck.equations) equate(terms);
     for (const Pin& pin : deck.pins)
         for (int dof = 1; dof <= mesh.dimension; ++dof) equate({{pin.first, dof, 1.0}, {pin.second, dof, -1.0}});
@@ -179,7 +221,7 @@ void References::push(const SceneComponent& component, const Place& place) {
     controls_.at(component.control).pushed.emplace(component.axis, place);
 }
 
-void References::couple(const Coupling& coupling) {
+std::int64_t References::reference_of(const Coupling& coupling) {
     const std::vector<std::int64_t>& found = of(coupling.reference);
     if (found.size() != 1)
         throw SceneFailure(coupling.place, fmt::format("REF NODE={}: one node that belongs to no body is expected",
@@ -201,6 +243,10 @@ void References::couple(const Coupling& coupling) {
                                            "has a node of its own",
                                            coupling.rotation_node->text));
     }
+    return reference;
+}
+
+std::string References::coupled_set(const Coupling& coupling) {
     std::string set = surface_name(model_, coupling.where);
     if (set.empty()) set = node_set_name(model_, coupling.where);
     if (!mesh_.node_sets.contains(set))
@@ -213,6 +259,13 @@ void References::couple(const Coupling& coupling) {
         throw SceneFailure(coupling.place, fmt::format("with this more than {} nodes are coupled", most_members));
     if (std::any_of(nodes.begin(), nodes.end(), [&](std::int64_t node) { return of_no_body(node); }))
         throw SceneFailure(coupling.place, fmt::format("\"{}\" has nodes that belong to no body", coupling.where.text));
+    return set;
+}
+
+void References::couple(const Coupling& coupling) {
+    const std::int64_t reference = reference_of(coupling);
+    const std::string set = coupled_set(coupling);
+    const std::vector<std::int64_t>& nodes = mesh_.node_sets.at(set);
     std::vector<std::size_t> axes;
     for (std::size_t a = 0; a < dimension_; ++a)
         if (coupling.dofs.empty() ||
@@ -250,6 +303,97 @@ void References::couple(const Coupling& coupling) {
     constraints_ += "\n";
 }
 
+// Returns the shares of the nodes of a set in its area: each face gives its nodes equal parts of its own. Nodes without
+// faces have equal shares.
+std::vector<double> References::weights_of(const std::string& set) const {
+    const std::vector<std::int64_t>& nodes = mesh_.node_sets.at(set);
+    std::vector<double> out(nodes.size(), 0.0);
+    const auto faces = mesh_.face_sets.find(set);
+    if (faces == mesh_.face_sets.end()) std::fill(out.begin(), out.end(), 1.0);
+    for (std::size_t f = 0; faces != mesh_.face_sets.end() && f < faces->second.size(); ++f) {
+        const auto& face = faces->second[f];
+        const auto count = static_cast<std::size_t>(std::find(face.begin(), face.end(), -1) - face.begin());
+        const std::size_t corners = dimension_ == 2 ? 2 : count % 3 == 0 ? 3 : 4;
+        const auto from_first = [&](std::size_t k) {
+            const std::vector<double> at = position(face[k]), first = position(face[0]);
+            Row r{};
+            for (std::size_t a = 0; a < dimension_; ++a) r[a] = at[a] - first[a];
+            return r;
+        };
+        double area = std::sqrt(dot(from_first(1), from_first(1)));
+        if (dimension_ == 3) {
+            area = 0;
+            for (std::size_t k = 2; k < corners; ++k) {
+                const Row normal = cross(from_first(k - 1), from_first(k));
+                area += std::sqrt(dot(normal, normal)) / 2;
+            }
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto at = std::lower_bound(nodes.begin(), nodes.end(), face[k]) - nodes.begin();
+            out[static_cast<std::size_t>(at)] += area / static_cast<double>(count);
+        }
+    }
+    const double whole = std::accumulate(out.begin(), out.end(), 0.0);
+    for (double& share : out) share /= whole;
+    return out;
+}
+
+// The reference node moves as the rigid motion that fits the nodes best, with weights: its translation is the mean, its
+// rotation t has J t = sum w r x u with J = sum w (r.r - r r^T), r from the weighted centre (Abaqus, "Coupling
+// constraints", continuum distributing). A force there acts on the nodes so that it leaves their shape free.
+void References::distribute(const Coupling& coupling) {
+    const std::int64_t reference = reference_of(coupling);
+    const std::string set = coupled_set(coupling);
+    const std::vector<std::int64_t>& nodes = mesh_.node_sets.at(set);
+    if (nodes.size() > most_distributed)
+        throw SceneFailure(coupling.place,
+                           fmt::format("*DISTRIBUTING over {} nodes: at most {} are imported; give the surface a "
+                                       "traction (*DSLOAD), or *KINEMATIC",
+                                       nodes.size(), most_distributed));
+    const std::vector<double> weights = weights_of(set);
+    Row centre{}, offset{};
+    std::vector<Row> arms;
+    for (const std::int64_t node : nodes) {
+        const std::vector<double> at = position(node);
+        arms.emplace_back();
+        std::copy(at.begin(), at.end(), arms.back().begin());
+        for (std::size_t a = 0; a < 3; ++a) centre[a] += weights[arms.size() - 1] * arms.back()[a];
+    }
+    for (Row& arm : arms)
+        for (std::size_t a = 0; a < 3; ++a) arm[a] -= centre[a];
+    const std::vector<double> at = position(reference);
+    for (std::size_t a = 0; a < dimension_; ++a) offset[a] = at[a] - centre[a];
+    const std::optional<Inertia> inertia = Inertia::of(arms, weights, dimension_);
+    if (!inertia)
+        throw SceneFailure(coupling.place, "*DISTRIBUTING: its nodes lie on one line, which leaves a rotation open");
+    // The share of the motion of a node along an axis in the rotation of all.
+    const auto turn = [&](std::size_t i, std::size_t axis) {
+        Row out = inertia->inverse_times(cross(arms[i], axis_row(axis)));
+        for (double& x : out) x *= weights[i];
+        return out;
+    };
+    const auto equation = [&](std::size_t control, std::size_t axis, const auto& share) {
+        extend(controls_[control].determined, axis_row(axis));
+        constraints_ += fmt::format("{}[[equations]]\nleft = [\n", origin_line(coupling.place));
+        constraints_ += line_of(place_of(controls_[control]), axis, 1.0);
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            for (std::size_t a = 0; a < dimension_; ++a)
+                if (const double part = share(i, a); std::fpclassify(part) != FP_ZERO)
+                    constraints_ += line_of(point_text(mesh_, nodes[i], bodies_at(nodes[i]).front()), a, -part);
+        constraints_ += "]\n\n";
+    };
+    const std::size_t control = control_of(reference);
+    for (std::size_t k = 0; k < dimension_; ++k)
+        equation(control, k, [&](std::size_t i, std::size_t a) {
+            return (k == a ? weights[i] : 0.0) + cross(turn(i, a), offset)[k];
+        });
+    if (!coupling.turns) return;
+    const std::size_t rotation = rotation_of(reference);
+    if (dimension_ == 2) return equation(rotation, 0, [&](std::size_t i, std::size_t a) { return turn(i, a)[2]; });
+    for (std::size_t k = 0; k < 3; ++k)
+        equation(rotation, k, [&](std::size_t i, std::size_t a) { return turn(i, a)[k]; });
+}
+
 std::string References::term_text(const EquationEntry& term, std::int64_t node) {
     SceneComponent at;
     if (of_no_body(node)) {
@@ -267,11 +411,7 @@ std::string References::term_text(const EquationEntry& term, std::int64_t node) 
                                            term.where.text, mesh_.dimension));
         at = {point_text(mesh_, node, bodies_at(node).front()), static_cast<std::size_t>(term.dof - 1), 0};
     }
-    std::string keys = at.place;
-    while (!keys.empty() && keys.back() == '\n') keys.pop_back();
-    for (std::size_t i = 0; (i = keys.find('\n', i)) != std::string::npos; i += 2) keys.replace(i, 1, ", ");
-    return fmt::format("    {{ {}, component = [\"{}\"], coefficient = {} }},\n", keys, axis_names[at.axis],
-                       toml_number(term.coefficient));
+    return line_of(at.place, at.axis, term.coefficient);
 }
 
 bool References::unsorted(const Entry& where) const {

@@ -32,6 +32,8 @@ public:
     // mesh: of the model, split into pieces. Throws SceneFailure at couplings that cannot be taken.
     References(const Deck& deck, const Model& model, const MeshData& mesh);
 
+    // True if there are control nodes.
+    [[nodiscard]] bool any() const { return !controls_.empty(); }
     // The nodes of an entry if all of them belong to no body; empty: they are nodes of bodies.
     [[nodiscard]] const std::vector<std::int64_t>& of(const Entry& where) const;
     // The bodies that a node belongs to.
@@ -67,7 +69,12 @@ private:
     [[nodiscard]] static std::string place_of(const Control& control);
     std::size_t control_of(std::int64_t node);
     std::size_t rotation_of(std::int64_t node);
+    std::int64_t reference_of(const Coupling& coupling);
+    // The name of the set of nodes that a coupling moves, each of which belongs to a body.
+    std::string coupled_set(const Coupling& coupling);
     void couple(const Coupling& coupling);
+    void distribute(const Coupling& coupling);
+    [[nodiscard]] std::vector<double> weights_of(const std::string& set) const;
     void equate(const std::vector<EquationEntry>& terms);
     std::string term_text(const EquationEntry& term, std::int64_t node);
     std::string held_text(const Control& control) const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,8 +12,10 @@
 #include "deck/abaqus/abaqus_cards.hpp"
 #include "deck/abaqus/abaqus_mesh.hpp"
 #include "deck/cards/deck_cards.hpp"
+#include "deck/cards/deck_refusals.hpp"
 #include "deck/deck_bodies.hpp"
 #include "deck/deck_interfaces.hpp"
+#include "deck/deck_kinematics.hpp"
 #include "deck/deck_loads.hpp"
 #include "mesh/body_pieces.hpp"
 #include "text/printable.hpp"
@@ -63,6 +66,7 @@ public:
         out += bodies_and_materials();
         out += interfaces_text(deck_, model_, mesh_);
         References references(deck_, model_, mesh_);
+        deck_.solver_keys = kinematics_key(deck_, references);
         const std::string loads = loads_text(deck_, model_, mesh_, references);
         out += references.text() + loads;
         out += "# For labels: the deck does not say which units it has.\n[units]\nlength = \"\"\nforce = \"\"\n";
@@ -121,19 +125,9 @@ private:
         return {names.begin() + static_cast<std::ptrdiff_t>(begin), names.begin() + static_cast<std::ptrdiff_t>(end)};
     }
 
-    const Orientation& orientation_of(const Section& section) const {
-        for (const std::string& part : {section.part, std::string()})
-            if (const auto found = deck_.orientations.find({part, upper(section.orientation)});
-                found != deck_.orientations.end()) {
-                if (found->second.refusal) throw SceneFailure(*found->second.refusal);
-                return found->second;
-            }
-        return named(Catalogue<Orientation>(), section.orientation, "orientation", section.place);
-    }
-
     // The angle of a ply, and an orientation of a shell, are about the normal of the plies, which must be axis 3 here.
     void require_third_axis(const Section& section) const {
-        const bool said = !section.orientation.empty() && orientation_of(section).about == 3;
+        const bool said = !section.orientation.empty() && orientation_of(deck_, section).about == 3;
         if ((section.angle != 0 || section.turned_plies) && !said)
             throw SceneFailure(section.place,
                                "the angle of a ply is imported with an *ORIENTATION whose second line is "
@@ -155,7 +149,7 @@ private:
             return "# The axes of its plies are those of the mesh, one cell for each ply.\n";
         Axes axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
         if (!section.orientation.empty()) {
-            const Orientation& o = orientation_of(section);
+            const Orientation& o = orientation_of(deck_, section);
             if (o.of_each_element())
                 return fmt::format("# Its axes differ from cell to cell: those of *ORIENTATION {} of the mesh.\n",
                                    one_line(o.name));
@@ -276,6 +270,7 @@ ImportedScene import_deck(const std::string& deck_path, const std::string& mesh_
     const Place place{deck_path, "", 0};
     std::string bytes;
     const std::vector<InpCard> cards = read_cards(deck_path, place, bytes);
+    abaqus::require_importable(cards);
     abaqus::Model model;
     abaqus::take_cards(cards, deck_path, model);
     abaqus::Deck deck = abaqus::read_deck(cards, deck_path, model.root);
@@ -284,12 +279,16 @@ ImportedScene import_deck(const std::string& deck_path, const std::string& mesh_
     const std::vector<std::size_t> parts = split_into_pieces(mesh);
     const bool pieces = mesh.body_names != plain_names;
 
+    constexpr std::string_view left_out = "left out: ";
     ImportedScene out;
     const std::string text = abaqus::SceneWriter(deck, model, mesh, plain_names, parts).text(mesh_name, pieces);
     for (const std::string& note : mesh.notes)
-        if (!note.starts_with("ignored: ") && !note.starts_with("cohesive: ")) out.changed.push_back(note);
+        if (!note.starts_with("ignored: ") && !note.starts_with("cohesive: ") && !note.starts_with(left_out))
+            out.changed.push_back(note);
     out.changed.insert(out.changed.end(), deck.changed.begin(), deck.changed.end());
     out.left_out = deck.left_out;
+    for (const std::string& note : mesh.notes)
+        if (note.starts_with(left_out)) out.left_out.push_back(note.substr(left_out.size()));
     for (const abaqus::Part* scope : model.scopes())
         for (const auto& [key, surface] : scope->surfaces)
             if (surface.refusal)

@@ -21,6 +21,7 @@ struct CellBlock {
 struct CohesiveSet {
     std::string name;                                       ///< of their set of elements
     std::string faces;                                      ///< of the set of these faces: `name`, unless nodes have it
+    std::string joined{};                                   ///< of its faces and those of sets with an equal section
     std::vector<std::array<std::int64_t, 9>> lower, upper;  ///< [elements] nodes of each face, -1 padded
     std::vector<double> apart;  ///< [elements] distance of its faces where bodies are tied to them; < 0: they are not
 };
@@ -42,6 +43,8 @@ struct MeshData {
     std::string plane;                  ///< "plane-strain" or "plane-stress" where the file says so; else empty
     std::vector<CohesiveSet> cohesive;  ///< what holds bodies together in the file
     std::vector<std::string> notes;     ///< what was decided on the way, for people
+    std::string file;                   ///< from which it was read; empty: it was generated
+    std::vector<std::string> chosen;    ///< the sets of elements of a deck that were asked for as bodies
 
     /** True if the file has this node. */
     [[nodiscard]] bool has_given(std::int64_t node) const { return given_nodes < 0 || node < given_nodes; }

@@ -76,12 +76,13 @@ void turn_clockwise_cells(MeshData& mesh) {
 
 }  // namespace
 
-double shortest_edge(const MeshData& mesh) {
+double shortest_edge(const MeshData& mesh, std::int64_t* cell) {
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
     double least = std::numeric_limits<double>::infinity();
+    std::int64_t number = 0;
     for (const CellBlock& block : mesh.blocks) {
         const CellShape& shape = shape_of(block.type);
-        for (std::size_t c = 0; c < block.bodies.size(); ++c)
+        for (std::size_t c = 0; c < block.bodies.size(); ++c, ++number)
             for (const auto& side : shape.sides) {
                 const std::size_t corners = shape.corners_of(side).size();
                 for (std::size_t i = 0; i < corners; ++i) {
@@ -92,7 +93,9 @@ double shortest_edge(const MeshData& mesh) {
                     double square = 0;
                     for (std::size_t a = 0; a < dimension; ++a)
                         square += std::pow(node(i)[a] - node((i + 1) % corners)[a], 2);
-                    least = std::min(least, std::sqrt(square));
+                    if (!(std::sqrt(square) < least)) continue;
+                    least = std::sqrt(square);
+                    if (cell != nullptr) *cell = number;
                 }
             }
     }

@@ -266,9 +266,9 @@ Model build(Context context, const Scene& scene) {
     try {
         fill(model, scene);
     } catch (const Failure& failure) {
-        const std::string text = named(failure.text(), scene, model);
-        if (failure.place().file.empty()) throw Failure(failure.code(), text);
-        throw Failure(failure.code(), failure.place(), text);
+        const OfElements of = with_elements(named(failure.text(), scene, model), failure.place(), scene);
+        if (of.place.file.empty()) throw Failure(failure.code(), of.message);
+        throw Failure(failure.code(), of.place, of.message);
     }
     delam_context_set_log(model.context.get(), nullptr, nullptr);
     return model;

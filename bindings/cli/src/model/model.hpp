@@ -44,4 +44,11 @@ void push_interface(Model& model, const Scene& scene, InterfaceData data, std::s
 std::size_t pattern_count(const Model& model);
 Context new_context();
 
+// The two nodes of each pair of an interface.
+struct PairNodes {
+    std::vector<std::int64_t> a, b;
+};
+// Returns the nodes of the faces at which the pairs are: at a mid-side node a pair has tied nodes of the same original.
+PairNodes nodes_of_pairs(const Model& model, std::int64_t interface, const std::string& what);
+
 }  // namespace cli

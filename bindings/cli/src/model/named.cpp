@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/named.hpp"
 
+#include <algorithm>
 #include <regex>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "model/selection.hpp"
+#include "scene/read_mesh.hpp"
 
 namespace cli {
 
@@ -79,6 +81,31 @@ std::string said_of_scene(const std::string& message, const Model& model) {
                    [](const std::smatch&) { return std::string("solution = \"energetic\""); });
     return replaced(out, "backtracking = on", R"(\bbacktracking = on\b)",
                     [](const std::smatch&) { return std::string("backtracking = \"on\""); });
+}
+
+OfElements with_elements(const std::string& message, const Place& place, const Scene& scene) {
+    if (!scene.mesh) return {message, place};
+    std::vector<std::int64_t> cells;
+    const auto note = [&](const std::string& number) {
+        cells.push_back(std::stoll(number));
+        return number;
+    };
+    for (const auto& [noun, plural] : {std::pair("cell ", false), std::pair("cells ", true)})
+        (void)named_numbers(message, noun, noun, plural, note);
+    const std::vector<FileElement> elements =
+        cells.empty() ? std::vector<FileElement>{} : file_elements(*scene.mesh, cells);
+    if (elements.empty()) return {message, place};
+    const Place& first = elements.front().place;
+    const bool moved = scene.imported.has_value();
+    const auto name = [&](const std::string& number) {
+        const auto at = std::find(cells.begin(), cells.end(), std::stoll(number)) - cells.begin();
+        const FileElement& element = elements[static_cast<std::size_t>(at)];
+        if (moved && at == 0) return element.label;
+        return element.label + " of " + Place{element.place.file, "", element.place.line}.text();
+    };
+    std::string out = named_numbers(message, "cell ", "element ", false, name);
+    out = named_numbers(out, "cells ", "elements ", true, name);
+    return {out, moved ? first : place};
 }
 
 std::string named(const std::string& message, const Scene& scene, const Model& model) {

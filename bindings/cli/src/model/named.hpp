@@ -12,6 +12,14 @@ namespace cli {
 // places.
 std::string named(const std::string& message, const Scene& scene, const Model& model);
 
+// The message of a failure with the elements of the file in the place of the numbers of cells. place: that of the
+// failure; that of the first element where a deck is the scene, whose lines say more than those of the import.
+struct OfElements {
+    std::string message;
+    Place place;
+};
+OfElements with_elements(const std::string& message, const Place& place, const Scene& scene);
+
 // A line of the log: with the names of interfaces, and words as a scene has them. Asks the library nothing.
 std::string said_of_scene(const std::string& message, const Model& model);
 

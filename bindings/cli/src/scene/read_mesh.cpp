@@ -22,7 +22,24 @@ MeshFile read_mesh(const std::string& path, const std::vector<std::string>& bodi
                                                   "allowed",
                                                   path, shortened(name), name.size(), most_text_bytes));
     tidy(out.mesh);
+    out.mesh.file = path;
+    out.mesh.chosen = bodies;
     return out;
+}
+
+std::vector<FileElement> file_elements(const MeshData& mesh, const std::vector<std::int64_t>& cells) {
+    if (mesh.file.empty()) return {};
+    const Place place{mesh.file, "", 0};
+    try {
+        if (is_abaqus_file(mesh.file)) return abaqus_elements(mesh.file, mesh.chosen, place, cells);
+        const std::vector<std::size_t> tags = gmsh_module(place).elements(mesh.file, place);
+        std::vector<FileElement> out;
+        for (const std::int64_t cell : cells)
+            out.push_back({std::to_string(tags.at(static_cast<std::size_t>(cell))), place});
+        return out;
+    } catch (const std::exception&) {
+        return {};  // the file is another one by now; what was wrong is said without it
+    }
 }
 
 }  // namespace cli

@@ -102,8 +102,13 @@ void read_mesh_table(const Table& root, Scene& scene) {
         geometry.plane = table.has("plane") || mesh.plane.empty() ? table.text("plane") : mesh.plane;
     else if (table.has("plane"))
         table.fail("plane", "is for plane meshes only");
-    geometry.smallest_edge = shortest_edge(mesh);
-    if (!(geometry.smallest_edge > 0)) table.fail("file", "a cell has an edge of no length");
+    std::int64_t shortest = 0;
+    geometry.smallest_edge = shortest_edge(mesh, &shortest);
+    if (!(geometry.smallest_edge > 0)) {
+        const std::vector<FileElement> at = file_elements(mesh, {shortest});
+        if (at.empty()) table.fail("file", "a cell has an edge of no length");
+        throw SceneFailure(at[0].place, fmt::format("element {} has an edge of no length", at[0].label));
+    }
     // A generated mesh follows from the keys of its generator.
     if (!file.hash.empty()) scene.content_hash = hash_text(scene.content_hash + file.hash);
     scene.mesh = std::make_shared<const MeshData>(std::move(mesh));

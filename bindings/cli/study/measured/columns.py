@@ -65,23 +65,38 @@ def rivals(table, chosen):
     return [f"not taken: {', '.join(label(table, k) for k in others)} (--columns X Y)"] if others else []
 
 
-def choose(table, names=None, x_kind="displacement"):
-    """The columns of x and y: those with these names, or those whose titles say what they are, or the first two. A
-    "load" beside a "force" is a displacement, as in our own tables."""
-    if names:
-        if len(names) != 2:
-            raise Trouble(f"{table.path}: two columns are expected, x and y")
-        return [named(table, name) for name in names]
+def guess(table, x_kind="displacement"):
+    """The columns of x and y: those whose titles say what they are, or whose units do, or the first two that can be; None:
+    there are none. A time is neither displacement nor load, and a column in mm is no load. A "load" beside a "force" is a
+    displacement, as in our own tables."""
     x, y = found(table, x_kind), found(table, "force")
     if x_kind == "displacement" and not x and len(y) > 1:
         loads = [k for k in y if "load" in words_of(table.titles[k])]
         x, y = loads, [k for k in y if k not in loads]
     x = x or _by_units(table, x_kind)
     y = [k for k in y or _by_units(table, "force") if k not in x[:1]]
-    if x and y:
-        return [x[0], y[0]]
-    filled = [k for k, column in enumerate(table.columns) if np.isfinite(column).any()]
-    return filled[:2]
+    taken = {*x[:1], *y[:1], *found(table, "time"), *_by_units(table, "time")}
+    cracks = found(table, "crack")
+    left = [k for k, column in enumerate(table.columns) if np.isfinite(column).any() and k not in taken]
+    # "a" may be anything: it is taken where nothing else is left.
+    left = [k for k in left if k not in cracks] if len(set(left) - set(cracks)) >= 2 - len(x[:1] + y[:1]) else left
+    x = x[:1] or [k for k in left if k not in _by_units(table, "force")][:1]
+    y = y[:1] or [k for k in left if k not in [*_by_units(table, "displacement"), *x]][:1]
+    return x + y if x and y else None
+
+
+def choose(table, names=None, x_kind="displacement"):
+    """The columns of x and y: those with these names, or those of the guess."""
+    if names:
+        if len(names) != 2:
+            raise Trouble(f"{table.path}: two columns are expected, x and y")
+        return [named(table, name) for name in names]
+    chosen = guess(table, x_kind)
+    if chosen is None:
+        listed = ", ".join(f"{k + 1} " + (label(table, k) if table.titles[k] else "without a title") for k in range(len(table.columns)))
+        raise Trouble(f"{table.path}: neither titles nor units say which columns are {x_kind} and load: name two of {listed} with "
+                      "--columns X Y, by their titles or numbers")
+    return chosen
 
 
 def label(table, k):

@@ -34,11 +34,13 @@ MISSING = re.compile(r"[-–—]+|\*+|\?+|#?n/?a|null|#(?:nv|num!|zahl!|value!|w
 
 @dataclass(frozen=True)
 class Form:
-    """separator, decimal sign, number of columns; texts: the columns that have words beside the numbers."""
+    """separator, decimal sign, number of columns; texts: the columns that have words beside the numbers; least: the number
+    of columns without those of remarks that rows without one leave out, 0 where there are none."""
     separator: str
     decimal: str
     width: int
     texts: frozenset = frozenset()
+    least: int = 0
 
 
 def cells_of(line, separator):
@@ -77,27 +79,51 @@ def _grouped_alone(rows):
     return any("," in cell for cell in rows) and not any("." in cell for cell in rows)
 
 
+def _remarks(lines):
+    """For each width, the columns that have words in some lines and in none a number: remarks and events of an operator.
+    lines: their widths, their columns of words and of numbers."""
+    found = {}
+    for width in {many for many, _, _ in lines}:
+        of_width = [(texts, filled) for many, texts, filled in lines if many == width]
+        numbers = frozenset().union(*(filled for texts, filled in of_width if not texts))
+        found[width] = frozenset().union(*(texts for texts, _ in of_width)) - numbers
+    return found
+
+
 def form_of(lines):
-    """The form with which most lines are rows; None: no line is. Columns of words count if they make more than twice as
-    many rows: a results table before the curve may have none."""
-    strict, loose = (0, None), (0, None)
+    """The form with which most lines are rows; None: no line is. A column that is empty in most rows, and has a remark in
+    the others, is one of words. Columns of words beside numbers count if they make more than twice as many rows: a results
+    table before the curve may have none."""
+    strict, loose, lines_of_best = (0, None), (0, None), 0
     for separator, decimal in WAYS:
         if separator != " " and not any(separator in line for line in lines):
             continue
-        counts, written = collections.Counter(), []
+        counts, written, alone = collections.Counter(), [], set()
         for line in lines:
             cells = cells_of(line, separator)
             row = [number_of(cell, decimal) for cell in cells]
-            if sum(value is not None and value == value for value in row) >= 2:
-                counts[(len(row), frozenset(k for k, value in enumerate(row) if value is None))] += 1
-                written += [cell for cell, value in zip(cells, row) if value is not None and value == value]
+            filled = frozenset(k for k, value in enumerate(row) if value is not None and value == value)
+            if len(filled) >= 2:
+                counts[(len(row), frozenset(k for k, value in enumerate(row) if value is None), filled)] += 1
+                written += [cells[k] for k in sorted(filled)]
+            elif not filled and len(row) > 2:  # a remark between two rows, if no number of the table stands over it
+                alone.add((len(row), frozenset(k for k, value in enumerate(row) if value is None)))
         if not counts or decimal == "." and _grouped_alone(written):
             continue
-        for (width, texts), rows in counts.items():
-            if not texts and rows > strict[0]:
-                strict = rows, Form(separator, decimal, width)
-        (width, texts), _ = counts.most_common(1)[0]
-        rows = sum(count for (many, some), count in counts.items() if many == width and some <= texts)
+        remarks = _remarks([*counts, *((width, texts, frozenset()) for width, texts in alone)])
+        by_texts = collections.Counter()
+        for (width, texts, _), rows in counts.items():
+            by_texts[(width, texts)] += rows
+        for (width, texts), rows in by_texts.items():
+            # Of two decimal signs with as many rows, the one with which more lines are rows of any width.
+            same = strict[1] is not None and strict[1].separator == separator and rows == strict[0]
+            if not texts and (rows > strict[0] or same and sum(counts.values()) > lines_of_best):
+                lines_of_best = sum(counts.values())
+                known = frozenset().union(*(some for many, some in [*by_texts, *alone] if many == width and some <= remarks[width]))
+                full = max([width] + [many for many, some, filled in counts if some and min(some) >= width > max(filled)])
+                strict = rows, Form(separator, decimal, full, known | frozenset(range(width, full)), width)
+        (width, texts), _ = by_texts.most_common(1)[0]
+        rows = sum(count for (many, some), count in by_texts.items() if many == width and some <= texts)
         if texts and (rows > loose[0] or rows == loose[0] and len(texts) < len(loose[1].texts)):
             loose = rows, Form(separator, decimal, width, texts)
     return loose[1] if loose[0] > 2 * strict[0] else strict[1]

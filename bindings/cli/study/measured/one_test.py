@@ -7,7 +7,7 @@ import numpy as np
 
 from _pictures.input_file import quoted
 from command import Trouble
-from measured.columns import choose, found, words_of
+from measured.columns import found, guess, words_of
 from measured.table_file import LEAST_ROWS, read_tables
 
 SPECIMEN = {"specimen", "sample", "probe", "probekörper", "prüfling", "éprouvette", "eprouvette", "probeta", "provino"}
@@ -71,7 +71,7 @@ def _goes_on(first, second):
         ends, begins = (table.columns[time[0]][np.isfinite(table.columns[time[0]])] for table in (first, second))
         if len(ends) and len(begins) and begins[0] >= ends[-1]:
             return True
-    x = choose(first)[0]
+    x = (guess(first) or [0])[0]
     ends, begins = (table.columns[x][np.isfinite(table.columns[x])] for table in (first, second))
     if not len(ends) or not len(begins):
         return True
@@ -109,11 +109,12 @@ def _listed(tests):
     return ", ".join(words) + (", .." if len(tests) > SHOWN else "")
 
 
-def read_test(path, specimen=""):
-    """The table of one test. specimen: its name or its number from 1 on, where the file has several."""
+def read_test(path, specimen="", option="--specimen 1"):
+    """The table of one test. specimen: its name or its number from 1 on, where the file has several; option: what takes the
+    first one, for a message."""
     tests = tests_of(read_tables(path))
     if not specimen and len(tests) > 1:
-        raise Trouble(f"{path}: the file has {len(tests)} tests: {_listed(tests)}: --specimen 1, for example, takes the first one")
+        raise Trouble(f"{path}: the file has {len(tests)} tests: {_listed(tests)}: {option}, for example, takes the first one")
     chosen = [test for test in tests if test.name == specimen] if specimen else tests
     if not chosen and re.fullmatch(r"\d{1,6}", specimen) and 1 <= int(specimen) <= len(tests):
         chosen = [tests[int(specimen) - 1]]

@@ -104,14 +104,22 @@ def _header(lines, form):
     return titles, units, taken
 
 
+def _is_aside(line, form):
+    """True of a line that is no row and ends none: a comment, or a remark in its own column without numbers beside it."""
+    if line.lstrip().startswith("#"):
+        return True
+    cells = cells_of(line, form.separator)
+    return len(cells) == form.width and bool(form.texts) and all(not cell or k in form.texts for k, cell in enumerate(cells))
+
+
 def _runs(lines, form):
     """Begin and end of the runs of rows among the lines. Comments may stand in them, and short rows."""
     runs, begin, last = [], None, 0
     for k, (_, line) in enumerate(lines):
         row = row_of(line, form, 2 if begin is None else 1)
-        if row is not None and (len(row) == form.width or begin is not None and len(row) < form.width):
+        if row is not None and len(row) <= form.width and (begin is not None or len(row) >= (form.least or form.width)):
             begin, last = k if begin is None else begin, k
-        elif not line.lstrip().startswith("#") and begin is not None:
+        elif begin is not None and not _is_aside(line, form):
             runs.append((begin, last + 1))
             begin = None
     return runs + ([(begin, last + 1)] if begin is not None else [])
@@ -121,7 +129,7 @@ def _require_rows(path, lines, form, run, after):
     """Refuses lines between two runs if each of them looks like a row in which something is wrong."""
     wrong = []
     for number, line in lines[run[1]:after]:
-        if line.lstrip().startswith("#"):
+        if _is_aside(line, form):
             continue
         cells = cells_of(line, form.separator)
         texts = [cell for k, cell in enumerate(cells) if number_of(cell, form.decimal) is None and k not in form.texts]
@@ -159,7 +167,7 @@ def read_tables(path):
         titles, units, used = _header([line for _, line in lines[before:begin]], form)
         if tables and not any(titles + units):
             titles, units = tables[-1].titles, tables[-1].units
-        chosen = [(number, line) for number, line in lines[begin:end] if not line.lstrip().startswith("#")]
+        chosen = [(number, line) for number, line in lines[begin:end] if not _is_aside(line, form)]
         rows = [(row_of(line, form, 0) + [float("nan")] * form.width)[:form.width] for _, line in chosen]
         cells = [cells_of(line, form.separator) + [""] * form.width for _, line in chosen] if form.texts else []
         above = [line for _, line in lines[before:begin - used]]

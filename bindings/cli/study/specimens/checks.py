@@ -18,6 +18,8 @@ OFFSET = (1 / 3, 3.0)
 EXPONENT = (2.5, 3.1)  # n of the compliance calibration is 3 a / (a + offset): 2.6 for short cracks in thick arms, 3 at most
 DISAGREE = 0.1  # between methods: on the same test they agree to some per cent
 
+LARGE = 0.4  # opening over crack: the factor F of ISO 15024, 1 - 0.3 (opening / crack)^2, takes off 5 % there
+
 
 def _modulus_matches(modulus_at, compliance, first, sheet):
     """The crack with which this compliance has the modulus that the first one has at the notch."""
@@ -92,6 +94,23 @@ def complain_of_spread(table):
         (low, one), (high, other) = at_max[0], at_max[-1]
         complain(f"warning: the methods differ by {100 * (high / low - 1):.0f} % at the largest load: {low:.4g} J/m2 ({one}), {high:.4g} "
                  f"J/m2 ({other}): width, thickness, notch, crack lengths or --E1 do not fit together")
+
+
+def complain_of_opening(path, opening, crack):
+    """Says where a DCB opens so far that its arms are no beams of small rotations; openings from zero on, and cracks."""
+    k = int(np.argmax(opening / crack))
+    if opening[k] > LARGE * crack[k]:
+        complain(f"warning: {path}: at an opening of {1e3 * opening[k]:.4g} mm the crack is {1e3 * crack[k]:.4g} mm long: beyond {LARGE:g} of the "
+                 f"crack, arms rotate too far for beam theory, of which corrected beam theory alone takes off what is too much, "
+                 f"{30 * (opening[k] / crack[k]) ** 2:.0f} %: is the displacement in another unit (--units), or is the specimen too thin?")
+
+
+def complain_of_growth(curve, points):
+    """Says that a curve ends before the crack grows: at its largest load, and on its initial line."""
+    last = len(curve.displacement) - 1
+    if not curve.broken and points.top == last and all(point.place in (-1, last) for point in points.points):
+        complain(f"warning: {curve.path}: the curve ends at its largest load, still on its initial line: if the specimen did not break "
+                 "there, its crack has not grown, and toughnesses are larger than these values")
 
 
 def complain_of_toughness(table, curve):

@@ -17,9 +17,10 @@ MACHINE = 0.25  # share of machine and fixture from which on it is told: an erro
 class Curve:
     """Displacement and load in SI along the way of the test without its unloadings, and the marks of the crack."""
 
-    def __init__(self, path, given, apart):
-        """apart: a file of crack lengths, or ""."""
-        table = read_test(path, given.specimen[0] if given.specimen else "")
+    def __init__(self, path, given, apart, calibration=None):
+        """apart: a file of crack lengths, or "". calibration: which test of the file; None: that of --specimen."""
+        table = (read_test(path, given.specimen[0] if given.specimen else "") if calibration is None else
+                 read_test(path, calibration, f"--calibration LENGTH={path}:1"))
         x, y = choose(table, given.columns)
         said = [f"displacement is {label(table, x)}, load is {label(table, y)}", *([] if given.columns else rivals(table, (x, y))), *table.said]
         self.names = [option or table.units[k] for k, option in zip((x, y), given.units or ["", ""])]
@@ -35,6 +36,7 @@ class Curve:
             column[there] = one
         rows = np.flatnonzero(there)
         broken = broken_at(columns[0][rows], columns[1][rows])
+        self.broken = broken is not None
         if broken is not None:
             said.append(said_of_break(1e3 * columns[0][rows[broken - 1]], len(rows) - broken, "mm"))
             for column in columns:

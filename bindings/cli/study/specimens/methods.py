@@ -164,3 +164,22 @@ def mixed_mode_bending(load, crack, chi, modulus, sheet):
     common = load ** 2 / (16 * b ** 2 * h ** 3 * half ** 2 * modulus)
     return (12 * common * (3 * lever - half) ** 2 * (crack + chi * h) ** 2,
             9 * common * (lever + half) ** 2 * (crack + 0.42 * chi * h) ** 2)
+
+
+def mmb_effective(first, chi, sheet):
+    """Both modes together at the crack that the compliance has, with the modulus that the initial compliance has once the
+    shear of the beam is taken off, which the modulus of ASTM D6671 counts as bending. Returns functions of displacement and
+    load: the length of the crack, and the rate."""
+    half, lever = 0.5 * sheet["span"], sheet["lever"]
+    shear = ((lever + half) / half) ** 2 * _sheared(sheet)
+    modulus = mmb_modulus(first - shear, chi, sheet)
+
+    def effective(d, p):
+        wanted = np.maximum(d / p - shear, 1e-3 * first)
+        low, high = np.zeros_like(wanted), np.full_like(wanted, 10 * half)
+        for _ in range(50):
+            middle = 0.5 * (low + high)
+            longer = mmb_modulus(wanted, chi, {**sheet, "notch": middle}) < modulus
+            low, high = np.where(longer, middle, low), np.where(longer, high, middle)
+        return 0.5 * (low + high)
+    return effective, lambda d, p: sum(mixed_mode_bending(p, effective(d, p), chi, modulus, sheet))

@@ -13,8 +13,9 @@ LIGHT, LINES = "#b9bec6", "#3a3f47"
 MARKS = (("o", BLUE), ("s", ORANGE), ("^", RED), ("v", GREY))
 
 
-def draw(out, test, curve, answers, points, bands):
-    """Lengths in mm, loads in N, toughnesses in J/m2. bands: those of a fit with their intervals."""
+def draw(out, test, curve, answers, points, bands, intervals=None, level=0.95):
+    """Lengths in mm, loads in N, toughnesses in J/m2. bands: those of a fit with their intervals. intervals: by method and
+    point, with their level."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4.2), constrained_layout=True)
     if curve.whole:
         x, y = curve.whole
@@ -29,12 +30,13 @@ def draw(out, test, curve, answers, points, bands):
     left.set_ylabel("load (N)")
     left.legend(fontsize="small", frameon=True, framealpha=0.9, edgecolor="none")
     drawn = at_points(right, answers, points) if one_crack(answers) else along_crack(right, answers, points)
+    ends = bars(right, answers, points, intervals or {}, level)
     for key, value, low, high in bands:
         if low == low and high == high:
             right.axhspan(low, high, color=BLUE, alpha=0.15, label=f"fit with its interval: {key}")
         right.axhline(value, color=BLUE, linewidth=0.8, label=None if low == low and high == high else f"fit: {key}")
     right.set_ylabel("toughness (J/m²)")
-    rates = np.concatenate(drawn + [[end] for band in bands for end in band[1:] if end == end])
+    rates = np.concatenate(drawn + [ends] + [[end] for band in bands for end in band[1:] if end == end])
     right.set_ylim(min(0.0, 1.05 * np.min(rates)), 1.15 * max(np.max(rates), 0.0))
     right.legend(fontsize="small")
     figure.suptitle(f"{os.path.basename(curve.path)}: {test}", fontsize=10)
@@ -64,6 +66,26 @@ def at_points(ax, answers, points):
     ax.set_xlim(-0.5, len(names) - 0.5)
     ax.set_xlabel(f"point of the curve, crack {1e3 * answers[0].crack[0]:g} mm")
     return rates
+
+
+def bars(ax, answers, points, intervals, level):
+    """Draws the intervals of the methods: at each point, or over the crack length at the largest load, side by side.
+    Returns their ends."""
+    alone, ends = one_crack(answers), []
+    shown = list(enumerate(points.points)) if alone else [(1e3 * points.points[-1].crack, points.points[-1])]
+    step = 0.012 * np.ptp(ax.get_xlim())
+    for k, answer in enumerate(answers):
+        for place, point in shown:
+            one = intervals.get(answer.name, {}).get(point.name)
+            if one is None or one.low is None or place != place:
+                continue
+            colour = next((line.get_color() for line in ax.lines if line.get_label() == answer.name), GREY)
+            label = None if ends else f"{100 * level:g} % intervals" + ("" if alone else " at the largest load")
+            middle = place + step * (k - 0.5 * (len(answers) - 1))
+            ax.errorbar([middle], [0.5 * (one.low + one.high)], yerr=0.5 * (one.high - one.low), color=colour, capsize=3,
+                        linewidth=1.0, linestyle="none", label=label)
+            ends += [one.low, one.high]
+    return ends
 
 
 def along_crack(ax, answers, points):

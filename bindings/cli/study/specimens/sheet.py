@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The sheet of an evaluated specimen in SI, and whether the numbers that follow from it can be those of a specimen."""
+import math
 import re
 
 from command import Trouble, complain
 from measured.units import kind_of, quantity
+from specimens import usual
 from specimens.thickness import taken_for_arm
 
 # key: its kind, and an example.
@@ -64,14 +66,39 @@ def sheet_of(given):
 MISTAKES = (("arm", 0.5, "--arm is that of the whole specimen (--thickness)"), ("span", 2.0, "--span is half of the span (--half-span)"),
             ("span", 0.5, "--half-span is the whole span (--span)"))
 MADE_UP = (0.7, 1.3)  # modulus over --E1 without the mistake: bending tests give 0.8 to 1.1, and a compliance has an error
+# Units that people take for each other, the likelier first; prefixes and decimal places that they miss.
+TAKEN_FOR = (("N", "kN", "lbf"), ("mm", "um", "cm", "m", "in"))
+PLACES, PREFIXES = (0.1, 10.0), (1e-3, 1e3)
+SHOWN = 3  # mistakes that a message names, the nearest first: more are no help
 
 
-def mistake(modulus_of, sheet):
-    """What was likely taken for something else, because the modulus would be --E1 without that mistake; nothing if none."""
-    for key, factor, what in MISTAKES:
-        if key in sheet and MADE_UP[0] < modulus_of({**sheet, key: factor * sheet[key]}) / sheet["E1"] < MADE_UP[1]:
-            return what
-    return ""
+def _of_the_file(modulus_at, compliance, sheet, names):
+    """With other units of load and displacement, and with columns that were exchanged: the modulus, and what is wrong."""
+    for kind, word, name, units, power in zip(("force", "length"), ("load", "displacement"), names[::-1], TAKEN_FOR, (-1, 1)):
+        for unit in units:
+            factor = kind_of(unit)[1] / kind_of(name)[1]
+            if kind_of(name)[0] == kind and abs(factor - 1) > 1e-9:
+                yield modulus_at(factor ** power * compliance, sheet), f"the {word} of the file is in {unit} and not in {name} (--units)"
+    per = kind_of(names[0])[1] / kind_of(names[1])[1]
+    yield modulus_at(per * per / compliance, sheet), "displacement and load are exchanged (--columns X Y)"
+
+
+def mistakes(modulus_at, compliance, sheet, names):
+    """What was likely taken for something else, because the modulus would be --E1 without that mistake, the nearest first: a
+    whole for a half, a unit, a decimal place, a prefix. names: units of displacement and load."""
+    def with_number(key, factor):
+        return modulus_at(compliance, {**sheet, key: factor * sheet[key]})
+
+    found = [(with_number(key, factor), what) for key, factor, what in MISTAKES if key in sheet]
+    found += _of_the_file(modulus_at, compliance, sheet, names)
+    for key, (low, high) in (("arm", usual.ARM), ("width", usual.WIDTH), ("notch", usual.LENGTH), ("span", usual.LENGTH)):
+        found += [(with_number(key, factor), f"--{key} is {1e3 * factor * sheet[key]:.4g}mm") for factor in PLACES
+                  if key in sheet and low < 1e3 * factor * sheet[key] < high]
+    found += [(modulus_at(compliance, sheet) / factor, f"--E1 is {factor * sheet['E1'] / 1e9:.4g}GPa") for factor in PREFIXES
+              if usual.E1[0] < factor * sheet["E1"] / 1e9 < usual.E1[1]]
+    near = [(round(abs(math.log(modulus / sheet["E1"])), 3), k, what) for k, (modulus, what) in enumerate(found)
+            if MADE_UP[0] < modulus / sheet["E1"] < MADE_UP[1]]
+    return [what for _, _, what in sorted(near)][:SHOWN]
 
 
 def agreeing(modulus_of, sheet, key):
@@ -101,9 +128,10 @@ def reasons(modulus_of, sheet, ratio, test):
     return said + "; or E1, or a unit of the file (--units), is another one"
 
 
-def require_modulus(modulus_of, compliance, sheet, curve, test):
-    """Refuses a bending modulus, a function of the sheet, that no specimen has, and warns of an unlikely one; returns it."""
-    modulus = modulus_of(sheet)
+def require_modulus(modulus_at, compliance, sheet, curve, test):
+    """Refuses a bending modulus, a function of the compliance and the sheet, that no specimen has, and warns of an unlikely
+    one; returns it."""
+    modulus = modulus_at(compliance, sheet)
     said = (f"{curve.path}: the initial compliance of {1e3 * compliance:.4g} mm/N ({curve.read_as}) gives a bending modulus of "
             f"{modulus / 1e9:.4g} GPa")
     advice = "units of the file (--units), another test, or a wrong --notch, --arm, --width or --span are likely"
@@ -113,13 +141,13 @@ def require_modulus(modulus_of, compliance, sheet, curve, test):
         return modulus
     ratio = modulus / sheet["E1"]
     said += f", --E1 is {sheet['E1'] / 1e9:g} GPa"
-    what = mistake(modulus_of, sheet) if not HALVED[0] < ratio < HALVED[1] else ""
+    what = mistakes(modulus_at, compliance, sheet, curve.names) if not HALVED[0] < ratio < HALVED[1] else []
     if what:
-        raise Trouble(f"{said}, and would agree if {what}")
+        raise Trouble(f"{said}, and would agree if {', or if '.join(what)}")
     if not CERTAIN[0] < ratio < CERTAIN[1]:
         raise Trouble(f"{said}: {advice}")
     if not (LIKELY[0] if {"E2", "G13"} <= sheet.keys() else UNROTATED) < ratio < LIKELY[1]:
-        complain(f"warning: {said}: {reasons(modulus_of, sheet, ratio, test)}")
+        complain(f"warning: {said}: {reasons(lambda one: modulus_at(compliance, one), sheet, ratio, test)}")
     return modulus
 
 

@@ -4,3 +4,6 @@
 # J/m2: a tenth of the least and ten times of the largest that are usual, so that an odd material is not told and a factor of
 # 1000 always is.
 TOUGHNESS = (10, 2e4)
+
+# What specimens usually have, mm and GPa.
+ARM, WIDTH, LENGTH, E1 = (0.4, 20), (5, 100), (10, 300), (10, 600)

@@ -198,9 +198,10 @@ void add_evaluate(CLI::App& app, Arguments& into, Commands& of) {
                 "a specimen that counts for no mean of the series; its row stays, and it is named")
         ->type_name("NAME");
     add_confidence(*of.evaluate, study);
-    add_several(
-        *of.evaluate, "--calibration", study.calibration,
-        "of enf: a file that was measured at another length of the crack, e.g. 20mm=a20.csv; given twice or more")
+    add_several(*of.evaluate, "--calibration", study.calibration,
+                "of enf: a file that was measured at another length of the crack, e.g. 20mm=a20.csv, or 20mm=all.csv:2 "
+                "for the second "
+                "test of a file; given twice or more")
         ->type_name("LENGTH=FILE");
     of.evaluate->add_option("--beside", study.beside, "folder of a fit, whose toughness stands beside")
         ->type_name(folder_value);

@@ -53,7 +53,7 @@ std::array<double, 3> rectangular(const std::array<double, 3>& at, bool spherica
 
 class CardReader {
 public:
-    explicit CardReader(Model& model) : model_(model), open_(&model.root) {}
+    CardReader(const std::vector<InpCard>& cards, Model& model) : model_(model), open_(&model.root), boundary_(cards) {}
 
     void read(const std::vector<InpCard>& cards) {
         for (const InpCard& card : cards) take(card);
@@ -89,6 +89,12 @@ private:
             made_ += generate_nodes(card, *open_, most_copies - made_);
         } else if (word == "ELGEN") {
             made_ += generate_elements(card, *open_, most_copies - made_);
+        } else if (word == "NFILL") {
+            made_ += fill_nodes(card, *open_, most_copies - made_);
+        } else if (word == "NCOPY") {
+            made_ += copy_nodes(card, *open_, most_copies - made_);
+        } else if (word == "ELCOPY") {
+            made_ += copy_elements(card, *open_, most_copies - made_);
         } else if (word == "NSET") {
             take_set(card, open_->node_sets, "NSET");
         } else if (word == "ELSET") {
@@ -102,6 +108,7 @@ private:
             return;
         } else if (word == "COHESIVE SECTION") {
             open_->cohesive_sections.push_back({open_, card.required("ELSET"), card.place});
+            open_->cohesive_cards.push_back(&card);
         } else if (word == "TIE") {
             take_tie(card);
         } else if (word == "PART") {
@@ -265,6 +272,9 @@ private:
 
     void take_elements(const InpCard& card) {
         card.check();
+        if (boundary_.contains(card))
+            return set_note(fmt::format("left out: elements {} of \"{}\", edges or faces that no section names",
+                                        card.parameter("TYPE"), card.parameter("ELSET")));
         const ElementType& type = type_named(card);
         const std::size_t per_element = type.nodes();
         if (!type.note.empty()) set_note(fmt::format("{}: {}", type.name, type.note));
@@ -404,6 +414,7 @@ private:
 
     Model& model_;
     Part* open_;
+    BoundaryElements boundary_;
     const InpCard* placing_ = nullptr;  // the *INSTANCE that is open
     bool in_step_ = false;
     std::int64_t copies_ = 0;
@@ -420,7 +431,7 @@ std::string pressed_surface(const std::string& elements, const std::string& side
 
 void take_cards(const std::vector<InpCard>& cards, const std::string& path, Model& model) {
     model.file = {path, "", 0};
-    CardReader(model).read(cards);
+    CardReader(cards, model).read(cards);
 }
 
 }  // namespace cli::abaqus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "deck/abaqus/abaqus_elements.hpp"
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,12 @@ constexpr ElementType element_types[] = {
     {"COH3D8", -1, "", "", 4},
 };
 
+bool begins(const std::string& type, std::initializer_list<const char*> names) {
+    for (const char* name : names)
+        if (type.starts_with(name)) return true;
+    return false;
+}
+
 }  // namespace
 
 std::size_t ElementType::nodes() const { return cohesive() ? 2 * face_nodes : shape_of(cell).nodes; }
@@ -84,6 +91,19 @@ const ElementType& type_named(const InpCard& card) {
         throw SceneFailure(card.place, fmt::format("type {} is not read: {}", name, instead));
     throw SceneFailure(
         card.place, fmt::format("type {} is not read{}; these are: {}", name, suggestion(name, known), listing(known)));
+}
+
+BoundaryElements::BoundaryElements(const std::vector<InpCard>& cards) {
+    for (const InpCard& card : cards) {
+        if (card.keyword.ends_with(" SECTION")) sections_.insert(upper(card.parameter("ELSET")));
+        if (card.keyword == "ELEMENT" && upper(card.parameter("TYPE")).starts_with("C3D")) solid_ = true;
+    }
+}
+
+bool BoundaryElements::contains(const InpCard& card) const {
+    const std::string type = upper(card.parameter("TYPE")), set = upper(card.parameter("ELSET"));
+    if (card.keyword != "ELEMENT" || set.empty() || sections_.contains(set)) return false;
+    return begins(type, {"T2D", "T3D"}) || (solid_ && begins(type, {"CPS", "CPE"}));
 }
 
 }  // namespace cli::abaqus

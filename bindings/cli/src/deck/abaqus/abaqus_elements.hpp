@@ -4,8 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "deck/abaqus/inp_cards.hpp"
 
@@ -27,5 +30,18 @@ struct ElementType {
 
 // Returns the type that the TYPE of an *ELEMENT card names.
 const ElementType& type_named(const InpCard& card);
+
+// Elements of edges and faces that preprocessors, Gmsh among them, write beside the cells of a mesh.
+class BoundaryElements {
+public:
+    explicit BoundaryElements(const std::vector<InpCard>& cards);
+    // True for a card of trusses, or of plane elements beside solid ones, whose set no section names: they are no
+    // cells.
+    [[nodiscard]] bool contains(const InpCard& card) const;
+
+private:
+    std::set<std::string> sections_;  // sets of sections, in upper case
+    bool solid_ = false;              // there are solid elements
+};
 
 }  // namespace cli::abaqus

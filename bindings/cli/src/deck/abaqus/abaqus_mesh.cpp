@@ -41,6 +41,17 @@ public:
         return std::move(mesh_);
     }
 
+    // Returns the element of which each cell was made, block after block.
+    [[nodiscard]] std::vector<ElementAt> made() const {
+        std::vector<ElementAt> out;
+        for (const auto& block : elements_)
+            for (const ElementAt& at : block) {
+                const auto plies = plies_in_.find(at);
+                out.insert(out.end(), plies == plies_in_.end() ? 1 : plies->second, at);
+            }
+        return out;
+    }
+
 private:
     void number_nodes() {
         bool plane = false;
@@ -160,8 +171,8 @@ private:
                     elements_.emplace_back();
                 }
                 elements_[static_cast<std::size_t>(block - mesh_.blocks.begin())].push_back({scope, i});
-                for (const std::int64_t id : element.nodes)
-                    block->connectivity.push_back(node_number(*scope, id, element.place));
+                for (std::size_t k = 0; k < element.nodes.size(); ++k)
+                    block->connectivity.push_back(node_number(*scope, element, k));
                 block->bodies.push_back(body_of_.at({scope, i}));
             }
         set_cell_axes(model_, elements_, mesh_);
@@ -189,6 +200,7 @@ private:
                                         "C3D8R or SC8R",
                                         at.element().id, at.type().name, plies.angles.size()));
                     laminate_at[at] = laminates.size();
+                    plies_in_[at] = plies.angles.size();
                     made += static_cast<std::int64_t>(plies.angles.size());
                 }
                 if (made > most_copies)
@@ -237,8 +249,14 @@ private:
         std::map<ElementAt, std::string> set_of;
         Met met;
         for (const Part* scope : model_.scopes()) {
-            for (const Entry& section : scope->cohesive_sections) {
+            for (std::size_t i = 0; i < scope->cohesive_sections.size(); ++i) {
+                const Entry& section = scope->cohesive_sections[i];
                 if (!is_new(met, model_, body_name(section), section)) continue;
+                const InpCard& card = *scope->cohesive_cards[i];
+                std::string alike = card.parameter("MATERIAL") + "\n" + card.parameter("ORIENTATION") + "\n" +
+                                    card.parameter("THICKNESS");
+                for (const InpLine& line : card.lines) alike += "\n" + listing(line.fields);
+                alike_[upper(alike)].push_back(body_name(section));
                 std::set<ElementAt> members;
                 model_.collect_elements(section, members);
                 for (const ElementAt& at : members) {
@@ -281,6 +299,29 @@ private:
                                               counted(static_cast<std::int64_t>(set.lower.size()), "element"), set.name,
                                               set.faces));
         }
+        join_alike();
+    }
+
+    // Sections that say the same may lie in one interface: all of them are one set, too.
+    void join_alike() {
+        for (const auto& [section, names] : alike_) {
+            std::vector<CohesiveSet*> sets;
+            for (CohesiveSet& set : mesh_.cohesive)
+                if (std::find(names.begin(), names.end(), set.name) != names.end()) sets.push_back(&set);
+            if (sets.size() < 2) continue;
+            std::string joined;
+            for (const CohesiveSet* set : sets) joined += (joined.empty() ? "" : "+") + set->faces;
+            while (mesh_.node_sets.contains(joined)) joined += "-faces";
+            std::set<std::int64_t> nodes;
+            for (CohesiveSet* set : sets) {
+                const auto& faces = mesh_.face_sets.at(set->faces);
+                mesh_.face_sets[joined].insert(mesh_.face_sets[joined].end(), faces.begin(), faces.end());
+                const auto& of_it = mesh_.node_sets.at(set->faces);
+                nodes.insert(of_it.begin(), of_it.end());
+                set->joined = joined;
+            }
+            mesh_.node_sets[joined].assign(nodes.begin(), nodes.end());
+        }
     }
 
     [[nodiscard]] std::string surface_name(const Entry& raw) const {
@@ -308,13 +349,13 @@ private:
     void add_cohesive_element(const Part& scope, const Element& element, const std::string& name,
                               const std::vector<bool>& in_cell) {
         const auto [known, first] = cohesive_of_.emplace(name, mesh_.cohesive.size());
-        if (first) mesh_.cohesive.push_back(CohesiveSet{name, "", {}, {}, {}});
+        if (first) mesh_.cohesive.push_back(CohesiveSet{name, "", "", {}, {}, {}});
         CohesiveSet& set = mesh_.cohesive[known->second];
         std::array<std::array<std::int64_t, 9>, 2> faces{};
         for (std::size_t k = 0; k < element.nodes.size(); ++k) {
             const std::size_t half = element.type->face_nodes;
             if (k % half == 0) faces[k / half].fill(-1);
-            const std::int64_t node = node_number(scope, element.nodes[k], element.place);
+            const std::int64_t node = node_number(scope, element, k);
             if (!in_cell[static_cast<std::size_t>(node)]) {
                 if (model_.ties.empty())
                     throw SceneFailure(
@@ -349,7 +390,7 @@ private:
             std::array<std::int64_t, 9> face{};
             face.fill(-1);
             for (std::size_t k = 0; k < shape.sides[side.side].size(); ++k) {
-                face[k] = node_number(*at.scope, element.nodes[shape.sides[side.side][k]], element.place);
+                face[k] = node_number(*at.scope, element, shape.sides[side.side][k]);
                 nodes.insert(face[k]);
             }
             faces.push_back(face);
@@ -365,23 +406,29 @@ private:
                                fmt::format("S{}: the faces of the cohesive element {} are S1 and S{}", side.side + 1,
                                            element.id, upper_side + 1));
         for (std::size_t k = 0; k < half; ++k)
-            nodes.insert(node_number(*at.scope, element.nodes[(side.side == 0 ? 0 : half) + k], element.place));
+            nodes.insert(node_number(*at.scope, element, (side.side == 0 ? 0 : half) + k));
     }
 
     Model& model_;
     std::vector<std::vector<ElementAt>> elements_;  // by block of cells
+    std::map<ElementAt, std::size_t> plies_in_;     // cells of an element with several plies
     std::map<ElementAt, std::int32_t> body_of_;
     std::map<std::string, std::int32_t> label_of_;  // of bodies, by name
     Met assigned_;
-    std::map<std::string, std::size_t> cohesive_of_;  // by name
-    std::map<std::string, LooseElements> loose_;      // by name of their set
+    std::map<std::string, std::size_t> cohesive_of_;         // by name
+    std::map<std::string, LooseElements> loose_;             // by name of their set
+    std::map<std::string, std::vector<std::string>> alike_;  // cohesive sets by what their sections say
     MeshData mesh_;
 };
 
 }  // namespace
 
-MeshData mesh_of(Model& model, const std::vector<std::string>& bodies, const Place& place) {
-    return MeshMaker(model).make(bodies, place);
+MeshData mesh_of(Model& model, const std::vector<std::string>& bodies, const Place& place,
+                 std::vector<ElementAt>* made) {
+    MeshMaker maker(model);
+    MeshData mesh = maker.make(bodies, place);
+    if (made != nullptr) *made = maker.made();
+    return mesh;
 }
 
 }  // namespace cli::abaqus

@@ -11,6 +11,8 @@
 namespace cli::abaqus {
 
 // bodies: as in read_abaqus.hpp, named at `place`. Nodes have the numbers of Part::first_node, which is set here.
-MeshData mesh_of(Model& model, const std::vector<std::string>& bodies, const Place& place);
+// made: if it is there, the element of which each cell was made, block after block.
+MeshData mesh_of(Model& model, const std::vector<std::string>& bodies, const Place& place,
+                 std::vector<ElementAt>* made = nullptr);
 
 }  // namespace cli::abaqus

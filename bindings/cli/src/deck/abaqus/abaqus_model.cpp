@@ -127,7 +127,7 @@ void Model::collect_set(const Set& set, std::set<std::int64_t>& out, Trail& trai
         collect_elements(from, elements);
         for (const ElementAt& at : elements) {
             const Element& element = at.scope->elements[at.index];
-            for (const std::int64_t id : element.nodes) out.insert(node_number(*at.scope, id, element.place));
+            for (std::size_t k = 0; k < element.nodes.size(); ++k) out.insert(node_number(*at.scope, element, k));
         }
     }
 }
@@ -135,6 +135,15 @@ void Model::collect_set(const Set& set, std::set<std::int64_t>& out, Trail& trai
 std::int64_t node_number(const Part& scope, std::int64_t id, const Place& place) {
     const auto at = scope.node_of.find(id);
     if (at == scope.node_of.end()) throw SceneFailure(place, fmt::format("node {} is not there", id));
+    return scope.first_node + static_cast<std::int64_t>(at->second);
+}
+
+std::int64_t node_number(const Part& scope, const Element& element, std::size_t position) {
+    const auto at = scope.node_of.find(element.nodes[position]);
+    if (at == scope.node_of.end())
+        throw SceneFailure(element.place,
+                           fmt::format("element {} has node {}, which is not there",
+                                       full_name(scope, std::to_string(element.id)), element.nodes[position]));
     return scope.first_node + static_cast<std::int64_t>(at->second);
 }
 

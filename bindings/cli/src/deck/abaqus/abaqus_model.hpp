@@ -97,6 +97,7 @@ struct Part {
     std::vector<Entry> sections;  // their element sets
     std::vector<const InpCard*> section_cards;
     std::vector<Entry> cohesive_sections;
+    std::vector<const InpCard*> cohesive_cards;
     CardsByName orientations, distributions, distribution_tables;
     std::array<std::array<double, 3>, 3> turned{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // where an instance has x, y, z
     std::array<double, 3> origin{};                                                  // and their origin
@@ -165,6 +166,8 @@ constexpr std::int64_t most_members = 100000000;
 constexpr std::int64_t most_copies = 20000000;
 
 std::int64_t node_number(const Part& scope, std::int64_t id, const Place& place);
+// The node of an element at a position of its line.
+std::int64_t node_number(const Part& scope, const Element& element, std::size_t position);
 // The name in the scene of an object of a part or an instance.
 std::string full_name(const Part& scope, const std::string& name);
 // The name of the set of a surface: with an ending where a node set has its name.

@@ -236,13 +236,18 @@ void InpCard::check() const {
     const abaqus::Keyword* known = abaqus::keyword_of(keyword);
     if (known == nullptr) return;
     std::vector<std::string> names;
-    for (const abaqus::Parameter& each : known->parameters) names.push_back(each.name);
+    for (const abaqus::Parameter& each : known->parameters)
+        if (abaqus::instead_of_parameter(keyword, each.name).empty()) names.push_back(each.name);
     for (const auto& [name, value] : parameters) {
-        const auto at = std::find(names.begin(), names.end(), name);
-        if (at == names.end())
+        for (const std::string& written : {name, name + "=" + value})
+            if (const std::string instead = abaqus::instead_of_parameter(keyword, written); !instead.empty())
+                throw SceneFailure(place, instead);
+        const auto at = std::find_if(known->parameters.begin(), known->parameters.end(),
+                                     [&](const abaqus::Parameter& each) { return each.name == name; });
+        if (at == known->parameters.end())
             throw SceneFailure(place, fmt::format("the parameter {} is not read{}; {}", name, suggestion(name, names),
                                                   names.empty() ? "none is" : "these are: " + listing(names)));
-        const std::vector<std::string>& values = known->parameters[static_cast<std::size_t>(at - names.begin())].values;
+        const std::vector<std::string>& values = at->values;
         if (values.empty() || std::find(values.begin(), values.end(), value) != values.end()) continue;
         std::string all = values.front();
         for (std::size_t i = 1; i < values.size(); ++i) all += (i + 1 < values.size() ? ", " : " or ") + values[i];

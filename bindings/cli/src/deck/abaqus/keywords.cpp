@@ -32,7 +32,10 @@ constexpr Row rows[] = {
     {"END INSTANCE", Use::mesh},
     {"TIE", Use::mesh, "NAME, ADJUST, POSITION TOLERANCE, TYPE, NO ROTATION, NO THICKNESS, CONSTRAINT RATIO"},
     {"NGEN", Use::mesh, "NSET"},
+    {"NFILL", Use::mesh, "NSET"},
+    {"NCOPY", Use::mesh, "CHANGE NUMBER, OLD SET, NEW SET, SHIFT"},
     {"ELGEN", Use::mesh, "ELSET"},
+    {"ELCOPY", Use::mesh, "ELEMENT SHIFT, OLD SET, SHIFT NODES, NEW SET"},
     {"DISTRIBUTION", Use::mesh, "NAME, LOCATION=ELEMENT, TABLE"},
     {"DISTRIBUTION TABLE", Use::mesh, "NAME"},
     {"INCLUDE", Use::mesh, "INPUT"},
@@ -51,7 +54,7 @@ constexpr Row rows[] = {
     {"STEP", Use::both, "NAME, NLGEOM, INC, AMPLITUDE=RAMP|STEP, UNSYMM, EXTRAPOLATION, CONVERT SDI"},
     {"END STEP", Use::both},
     {"AMPLITUDE", Use::deck,
-     "NAME, DEFINITION=TABULAR|SMOOTH STEP, TIME=STEP TIME|TOTAL TIME, "
+     "NAME, DEFINITION=TABULAR|SMOOTH STEP|EQUALLY SPACED, FIXED INTERVAL, BEGIN, TIME=STEP TIME|TOTAL TIME, "
      "VALUE=RELATIVE|ABSOLUTE, SMOOTH"},
     {"BOUNDARY", Use::deck, "AMPLITUDE, OP=MOD|NEW, TYPE=DISPLACEMENT|VELOCITY, FIXED"},
     {"CLOAD", Use::deck, "AMPLITUDE, OP=MOD|NEW"},
@@ -66,6 +69,7 @@ constexpr Row rows[] = {
      "DISTANCE, SMOOTH, SUPPLEMENTARY CONSTRAINTS, TRACKING, CPSET"},
     {"CONTACT PROPERTY ASSIGNMENT", Use::deck},
     {"COUPLING", Use::deck, "CONSTRAINT NAME, REF NODE, SURFACE"},
+    {"DISTRIBUTING", Use::deck, "COUPLING=CONTINUUM, WEIGHTING METHOD=UNIFORM"},
     {"DLOAD", Use::deck, "AMPLITUDE, OP=MOD|NEW"},
     {"DSLOAD", Use::deck, "AMPLITUDE, OP=MOD|NEW, FOLLOWER, ORIENTATION, CONSTANT RESULTANT"},
     {"DYNAMIC", Use::deck,
@@ -76,11 +80,12 @@ constexpr Row rows[] = {
     {"INITIAL CONDITIONS", Use::deck, "TYPE=CONTACT|TEMPERATURE, NORMAL"},
     {"KINEMATIC", Use::deck},
     {"MPC", Use::deck},
-    {"RIGID BODY", Use::deck, "REF NODE, NSET, PIN NSET, TIE NSET, ROT NODE"},
+    {"RIGID BODY", Use::deck, "REF NODE, NSET, PIN NSET, TIE NSET, ROT NODE, ANALYTICAL SURFACE, ELSET"},
     {"STATIC", Use::deck, "DIRECT, STABILIZE, RIKS, SOLVER, FACTOR, ALLSDTOL, CONTINUE, LONG TERM"},
     {"SURFACE PROPERTY ASSIGNMENT", Use::deck, "PROPERTY"},
     {"TEMPERATURE", Use::deck, "AMPLITUDE, OP=MOD|NEW"},
     {"TRANSFORM", Use::deck, "NSET, TYPE=R"},
+    {"TRANSVERSE SHEAR STIFFNESS", Use::both},
     {"MATERIAL", Use::deck, "NAME, RTOL, SRATE FACTOR"},
     {"SURFACE INTERACTION", Use::deck, "NAME, TRACKING THICKNESS, UNSYMM"},
     {"COHESIVE BEHAVIOR", Use::law,
@@ -90,7 +95,7 @@ constexpr Row rows[] = {
      "TYPE=ENERGY|DISPLACEMENT, SOFTENING=LINEAR|EXPONENTIAL|TABULAR, MIXED MODE "
      "BEHAVIOR=BK|POWER LAW|TABULAR|MODE INDEPENDENT, MODE MIX RATIO=ENERGY|TRACTION, POWER, "
      "DEGRADATION=MAXIMUM, DEPENDENCIES"},
-    {"DAMAGE INITIATION", Use::law, "CRITERION=MAXS|QUADS|MAXE|QUADE, DEPENDENCIES, TOLERANCE"},
+    {"DAMAGE INITIATION", Use::law, "CRITERION=MAXS|QUADS|MAXE|QUADE|MAXU|QUADU, DEPENDENCIES, TOLERANCE"},
     {"DAMAGE STABILIZATION", Use::law},
     {"ELASTIC", Use::law, "TYPE=ISOTROPIC|ORTHOTROPIC|ENGINEERING CONSTANTS|LAMINA|TRACTION, MODULI, DEPENDENCIES"},
     {"EXPANSION", Use::law, "TYPE=ISO|ORTHO, ZERO, DEPENDENCIES"},
@@ -112,6 +117,8 @@ constexpr Row rows[] = {
     {"CONCRETE DAMAGED PLASTICITY", Use::no_law},
     {"CONCRETE TENSION DAMAGE", Use::no_law},
     {"CONCRETE TENSION STIFFENING", Use::no_law},
+    {"CREEP", Use::no_law, "",
+     "viscous strain stays out: bodies are elastic; take it out of a copy of the deck if the test is too short for it"},
     {"CRUSHABLE FOAM", Use::no_law},
     {"CRUSHABLE FOAM HARDENING", Use::no_law},
     {"CYCLIC HARDENING", Use::no_law},
@@ -184,15 +191,12 @@ constexpr Row rows[] = {
     {"SPECIFIC HEAT", Use::unneeded},
     {"SURFACE OUTPUT", Use::unneeded},
     {"TIME POINTS", Use::unneeded},
-    {"TRANSVERSE SHEAR STIFFNESS", Use::unneeded},
     {"USER OUTPUT VARIABLES", Use::unneeded},
     {"SECTION CONTROLS", Use::deck,
      "NAME, DISTORTION CONTROL, ELEMENT DELETION, HOURGLASS, KINEMATIC SPLIT, LENGTH RATIO, "
      "MAX DEGRADATION, SECOND ORDER ACCURACY, VISCOSITY, WEIGHT FACTOR, INITIAL GAP OPENING, "
      "PERCENT STRETCH, RAMP INITIAL STRESS, DRILL STIFFNESS, PERTURBATION, HARMONIC"},
     {"CONTACT EXCLUSIONS", Use::passed},
-    {"DISTRIBUTING", Use::passed, "",
-     "couplings that distribute a force are not imported; give the surface a traction (*DSLOAD)"},
     {"FIELD", Use::passed},
     {"USER DEFINED FIELD", Use::passed},
     {"BEAM SECTION", Use::never, "", "beams stay out: give solid cells, or a rigid *COUPLING"},
@@ -200,28 +204,55 @@ constexpr Row rows[] = {
     {"DEBOND", Use::never, "",
      "debonding by the virtual crack closure technique stays out: give *COHESIVE BEHAVIOR "
      "with *DAMAGE INITIATION and *DAMAGE EVOLUTION"},
-    {"ELCOPY", Use::never, "", "write the elements (*ELEMENT, *ELGEN)"},
     {"EMBEDDED ELEMENT", Use::never, "", "embedded elements stay out: mesh the body around them"},
     {"FREQUENCY", Use::never, "", "vibrations would change the result's meaning: steps are *STATIC"},
     {"MEMBRANE SECTION", Use::never, "", "membranes stay out: give solid cells"},
     {"MODEL CHANGE", Use::never, "",
      "parts and contact stay for the whole analysis: end it with the step before, or take out "
      "what is removed"},
-    {"NCOPY", Use::never, "", "write the nodes (*NODE, *NGEN)"},
-    {"NFILL", Use::never, "", "write the nodes (*NODE, *NGEN)"},
     {"PARAMETER DEPENDENCE", Use::never, "", "tables of parameters stay out: give a *PARAMETER the value"},
     {"RIGID SURFACE", Use::never, "",
-     "rigid surfaces stay out: give a body of solid cells, or an obstacle in the scene"},
+     "rigid surfaces stay out: give a body of solid cells, or an obstacle in the scene (SCENE.md, [[obstacles]])"},
     {"SHELL GENERAL SECTION", Use::never, "", "shells stay out: give solid cells or SC8R"},
     {"SYSTEM", Use::never, "", "give the coordinates of the nodes in one system, or *NODE, SYSTEM="},
     {"UEL PROPERTY", Use::never, "", "user elements stay out: cohesive ones are COH2D4, COH3D6, COH3D8 here"},
     {"USER ELEMENT", Use::never, "", "user elements stay out: cohesive ones are COH2D4, COH3D6, COH3D8 here"},
-    {"VISCO", Use::never, "", "viscous materials stay out: steps are *STATIC"},
+    {"VISCO", Use::never, "", "viscous materials stay out: bodies are elastic, and steps are *STATIC"},
 };
 
 struct Words {
     std::string_view name;
     std::string_view text;
+};
+
+constexpr std::string_view analytical =
+    "analytical rigid surfaces stay out: give a body of solid cells whose nodes a *RIGID BODY, TIE NSET= holds, or an "
+    "obstacle in the scene (SCENE.md, [[obstacles]])";
+
+// Parameters that stay out, or values of theirs (NAME=VALUE), each by its keyword.
+constexpr std::pair<std::string_view, Words> parameters[] = {
+    {"CONTACT INITIALIZATION DATA",
+     {"INTERFERENCE FIT",
+      "INTERFERENCE FIT: faces that are pressed at the start are imported as they are meshed: give the nodes their "
+      "distance, or ADJUST= of *CONTACT PAIR"}},
+    {"CONTACT INITIALIZATION DATA",
+     {"INITIAL CLEARANCE",
+      "INITIAL CLEARANCE: faces that are parted at the start are imported as they are meshed: give the nodes their "
+      "distance, or ADJUST= of *CONTACT PAIR"}},
+    {"CONTACT PAIR", {"TIED", "TIED is not imported: give *TIE; bodies that share nodes are bonded, too"}},
+    {"DSLOAD", {"ORIENTATION", "ORIENTATION is not imported: give the direction along x, y, z"}},
+    {"DYNAMIC", {"EXPLICIT", "explicit steps stay out: give *STATIC, which has no inertia"}},
+    {"FRICTION",
+     {"ROUGH", "ROUGH would let no faces slide: contact is without friction here; give *COHESIVE BEHAVIOR a law"}},
+    {"RIGID BODY", {"ANALYTICAL SURFACE", analytical}},
+    {"RIGID BODY", {"ELSET", "ELSET is not imported: give the nodes of these elements, as NSET= or TIE NSET="}},
+    {"SURFACE", {"TYPE=CYLINDER", analytical}},
+    {"SURFACE", {"TYPE=REVOLUTION", analytical}},
+    {"SURFACE", {"TYPE=SEGMENTS", analytical}},
+    {"SURFACE BEHAVIOR",
+     {"NO SEPARATION",
+      "NO SEPARATION would hold faces together that slide freely: that is not imported; give *COHESIVE BEHAVIOR a "
+      "law"}},
 };
 
 // A type has the words of the first row whose name it begins with.
@@ -344,6 +375,12 @@ std::string instead_of_keyword(std::string_view written) {
     }
     return "this keyword would change the result and cannot be imported; take it out of a copy of the deck to go on "
            "without it, or write the scene by hand (SCENE.md)";
+}
+
+std::string instead_of_parameter(std::string_view keyword, std::string_view parameter) {
+    for (const auto& [of, words] : parameters)
+        if (of == keyword && words.name == parameter) return std::string(words.text);
+    return "";
 }
 
 std::string instead_of_element(std::string_view type) {

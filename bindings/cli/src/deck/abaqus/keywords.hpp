@@ -40,6 +40,8 @@ std::string value_of(const Parameter& parameter, const std::string& written);
 
 // Returns what to do about a keyword that is not imported.
 std::string instead_of_keyword(std::string_view written);
+// The same for a parameter that is known and stays out, or NAME=VALUE; "": it is read, or unknown.
+std::string instead_of_parameter(std::string_view keyword, std::string_view parameter);
 // The same for a type of elements; "": nothing is known.
 std::string instead_of_element(std::string_view type);
 

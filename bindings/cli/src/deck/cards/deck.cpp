@@ -36,6 +36,16 @@ SectionOf SectionIndex::of(const std::string& name) const {
     return found == of_.end() ? SectionOf{} : found->second;
 }
 
+const Orientation& orientation_of(const Deck& deck, const Section& section) {
+    for (const std::string& part : {section.part, std::string()})
+        if (const auto found = deck.orientations.find({part, upper(section.orientation)});
+            found != deck.orientations.end()) {
+            if (found->second.refusal) throw SceneFailure(*found->second.refusal);
+            return found->second;
+        }
+    return named(Catalogue<Orientation>(), section.orientation, "orientation", section.place);
+}
+
 std::string node_set_name(const Model& model, const Entry& raw) {
     const Entry entry = model.resolved_scope(raw);
     const auto set = entry.scope->node_sets.find(upper(entry.text));
@@ -50,7 +60,7 @@ std::string surface_name(const Model& model, const Entry& raw) {
     return surface_set_name(*entry.scope, surface->second);
 }
 
-CohesiveElement cohesive_element(const Model& model, const std::vector<std::int64_t>& lower) {
+FoundElement cohesive_element(const Model& model, const std::vector<std::int64_t>& lower) {
     for (const Part* scope : model.scopes())
         for (const Element& element : scope->elements) {
             if (!element.type->cohesive() || element.type->face_nodes != lower.size()) continue;
@@ -58,6 +68,19 @@ CohesiveElement cohesive_element(const Model& model, const std::vector<std::int6
             for (std::size_t k = 0; k < lower.size() && same; ++k)
                 same = node_number(*scope, element.nodes[k], element.place) == lower[k];
             if (same) return {scope, &element};
+        }
+    return {};
+}
+
+FoundElement cell_with(const Model& model, const std::vector<std::int64_t>& nodes) {
+    for (const Part* scope : model.scopes())
+        for (const Element& element : scope->elements) {
+            const auto has = [&](std::int64_t node) {
+                for (std::size_t k = 0; k < element.nodes.size(); ++k)
+                    if (node_number(*scope, element, k) == node) return true;
+                return false;
+            };
+            if (!element.type->cohesive() && std::all_of(nodes.begin(), nodes.end(), has)) return {scope, &element};
         }
     return {};
 }

@@ -126,13 +126,16 @@ struct EquationEntry {
     double coefficient = 0;
 };
 
-// Nodes that move with a reference node as one rigid body: *COUPLING with *KINEMATIC, *RIGID BODY.
+// Nodes that move with a reference node as one rigid body: *COUPLING with *KINEMATIC, *RIGID BODY. Or that do so in the
+// mean: *DISTRIBUTING.
 struct Coupling {
     Entry reference;
     Entry where;
     std::vector<int> dofs;               // 1 to 3; empty: all
     std::optional<Entry> rotation_node;  // of CalculiX: its degrees of freedom 1 to 3 are the rotation
     Place place;
+    bool in_mean = false;
+    bool turns = true;  // in the mean: the reference node turns, too
 };
 
 // Nodes that *MPC, of type TIE or PIN, lets move alike: one, or two sets node by node.
@@ -168,6 +171,7 @@ struct Step {
     bool ramp = true;  // loads without an amplitude grow over the step
     bool new_boundaries = false, new_forces = false, new_distributed = false;  // those before end
     Place renewed{};                                                           // *BOUNDARY, OP=NEW
+    std::optional<bool> large;  // NLGEOM: large displacements and rotations; nothing: not said
     bool riks = false;
     bool procedure = false;  // *STATIC or *DYNAMIC has come
     std::vector<LoadLine> boundaries, forces, temperatures;
@@ -193,6 +197,7 @@ struct Deck {
     std::string adhering{};  // the interaction of all bodies that touch and have no other; empty: contact
     Place adhering_place{};
     double width = 0;                  // of a plane mesh; 0: not known yet
+    std::string solver_keys{};         // lines of [solver]
     std::vector<std::string> changed;  // for people: what the scene does otherwise
     std::vector<std::string> left_out;
 };
@@ -213,16 +218,22 @@ private:
     std::unordered_map<std::string, SectionOf> of_;
 };
 
+// The orientation that a section names: of its part, else of the whole deck. Throws SceneFailure where there is none.
+const Orientation& orientation_of(const Deck& deck, const Section& section);
+
 // The names that sets of nodes and surfaces have in the scene; "": there is none.
 std::string node_set_name(const Model& model, const Entry& raw);
 std::string surface_name(const Model& model, const Entry& raw);
 
-// A cohesive element by the nodes of its lower face in the mesh. Null: there is none.
-struct CohesiveElement {
+// An element of the deck. Null: there is none.
+struct FoundElement {
     const Part* scope = nullptr;
     const Element* element = nullptr;
 };
-CohesiveElement cohesive_element(const Model& model, const std::vector<std::int64_t>& lower);
+// A cohesive element by the nodes of its lower face in the mesh.
+FoundElement cohesive_element(const Model& model, const std::vector<std::int64_t>& lower);
+// The first element that is a cell and has these nodes of the mesh.
+FoundElement cell_with(const Model& model, const std::vector<std::int64_t>& nodes);
 
 // The line before a table of the scene that says which card it comes from; import_deck makes a comment of it.
 std::string origin_line(const Place& place);

@@ -29,6 +29,8 @@ const std::pair<const char*, const char*> otherwise[] = {
     {"CONTACT STABILIZATION", "*CONTACT STABILIZATION: no viscosity; jumps of the crack are found by energy"},
     {"FRICTION", "*FRICTION: contact without friction"},
     {"SURFACE BEHAVIOR", "*SURFACE BEHAVIOR: contact is exact, without a penalty"},
+    {"TRANSVERSE SHEAR STIFFNESS",
+     "*TRANSVERSE SHEAR STIFFNESS: solid cells shear by the moduli of their material, whatever it says"},
     {"SURFACE PROPERTY ASSIGNMENT", "*SURFACE PROPERTY ASSIGNMENT: surfaces are the sides of cells as they are meshed"},
 };
 
@@ -75,18 +77,6 @@ private:
         if (use == Use::no_law || use == Use::passed || use == Use::never)
             throw SceneFailure(card.place, instead_of_keyword(word));
         card.check();
-        if (card.has("INTERFERENCE FIT") || card.has("INITIAL CLEARANCE"))
-            throw SceneFailure(card.place,
-                               "faces that are pressed or parted at the start are imported as they are meshed: "
-                               "give the nodes their distance, or ADJUST= of *CONTACT PAIR");
-        if (card.has("NO SEPARATION"))
-            throw SceneFailure(card.place,
-                               "NO SEPARATION would hold faces together that slide freely: that is not imported; give "
-                               "*COHESIVE BEHAVIOR a law");
-        if (card.has("ROUGH"))
-            throw SceneFailure(card.place,
-                               "ROUGH would let no faces slide: contact is without friction here; give *COHESIVE "
-                               "BEHAVIOR a law");
         for (const auto& [name, text] : otherwise)
             if (word == name) return say_once(deck_.changed, text);
         if (steps_.take(card)) return;
@@ -337,6 +327,7 @@ private:
                      "CONTROLS of cohesive elements: no viscosity; jumps of the crack are found by energy");
         Section section;
         section.orientation = card.has("ORIENTATION") ? card.required("ORIENTATION") : "";
+        section.part = part_;
         section.material = card.required("MATERIAL");
         section.thickness = card.has("THICKNESS") ? card.required("THICKNESS") : "SPECIFIED";
         if (card.has("STACK DIRECTION") && card.required("STACK DIRECTION") != "3")
@@ -374,8 +365,6 @@ private:
 
     void take_pair(const InpCard& card) {
         if (!card.has("INTERACTION")) throw SceneFailure(card.place, "INTERACTION= is missing");
-        if (card.has("TIED"))
-            throw SceneFailure(card.place, "TIED is not imported: bodies that share nodes are bonded");
         const std::string interaction = card.required("INTERACTION");
         double adjust = 0;
         if (card.has("ADJUST")) {

@@ -12,10 +12,11 @@ namespace cli::abaqus {
 bool ConstraintReader::take(const InpCard& card) {
     using Take = void (ConstraintReader::*)(const InpCard&);
     static const std::pair<const char*, Take> known[] = {
-        {"COUPLING", &ConstraintReader::take_coupling},     {"EQUATION", &ConstraintReader::take_equation},
-        {"KINEMATIC", &ConstraintReader::take_kinematic},   {"MPC", &ConstraintReader::take_pins},
-        {"RIGID BODY", &ConstraintReader::take_rigid_body}, {"TRANSFORM", &ConstraintReader::take_transform}};
-    if (card.keyword != "KINEMATIC") finish();
+        {"COUPLING", &ConstraintReader::take_coupling},  {"DISTRIBUTING", &ConstraintReader::take_distributing},
+        {"EQUATION", &ConstraintReader::take_equation},  {"KINEMATIC", &ConstraintReader::take_kinematic},
+        {"MPC", &ConstraintReader::take_pins},           {"RIGID BODY", &ConstraintReader::take_rigid_body},
+        {"TRANSFORM", &ConstraintReader::take_transform}};
+    if (card.keyword != "KINEMATIC" && card.keyword != "DISTRIBUTING") finish();
     for (const auto& [keyword, function] : known)
         if (card.keyword == keyword) {
             (this->*function)(card);
@@ -25,10 +26,7 @@ bool ConstraintReader::take(const InpCard& card) {
 }
 
 void ConstraintReader::finish() const {
-    if (open_)
-        throw SceneFailure(open_->place,
-                           "*KINEMATIC is expected next: couplings that distribute a force are not imported; give the "
-                           "surface a traction (*DSLOAD)");
+    if (open_) throw SceneFailure(open_->place, "*KINEMATIC or *DISTRIBUTING is expected next");
 }
 
 void ConstraintReader::take_coupling(const InpCard& card) {
@@ -36,7 +34,23 @@ void ConstraintReader::take_coupling(const InpCard& card) {
                      {&root_, card.required("SURFACE"), card.place},
                      {},
                      {},
-                     card.place};
+                     card.place,
+                     false,
+                     true};
+}
+
+// Its lines name rotations that the reference node has; it always has all displacements.
+void ConstraintReader::take_distributing(const InpCard& card) {
+    if (!open_) throw SceneFailure(card.place, "a *COUPLING is expected first");
+    open_->in_mean = true;
+    open_->turns = card.lines.empty();
+    for (const InpLine& line : card.lines) {
+        const int first = degree_of_freedom(line.fields.at(0), 6, line.place);
+        const bool one = line.fields.size() < 2 || line.fields[1].empty();
+        if ((one ? first : degree_of_freedom(line.fields[1], 6, line.place)) > 3) open_->turns = true;
+    }
+    deck_.couplings.push_back(std::move(*open_));
+    open_.reset();
 }
 
 void ConstraintReader::take_kinematic(const InpCard& card) {
@@ -57,7 +71,8 @@ void ConstraintReader::take_kinematic(const InpCard& card) {
 }
 
 void ConstraintReader::take_rigid_body(const InpCard& card) {
-    Coupling coupling{{&root_, card.required("REF NODE"), card.place}, {&root_, "", card.place}, {}, {}, card.place};
+    Coupling coupling{
+        {&root_, card.required("REF NODE"), card.place}, {&root_, "", card.place}, {}, {}, card.place, false, true};
     std::size_t given = 0;
     for (const char* name : {"NSET", "PIN NSET", "TIE NSET"})
         if (card.has(name)) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cards of constraints between displacements: *COUPLING with *KINEMATIC, *RIGID BODY of nodes, *EQUATION, *MPC.
+// The cards of constraints between displacements: *COUPLING with *KINEMATIC or *DISTRIBUTING, *RIGID BODY of nodes,
+// *EQUATION, *MPC.
 #pragma once
 
 #include "deck/abaqus/inp_cards.hpp"
@@ -20,6 +21,7 @@ public:
 private:
     void take_coupling(const InpCard& card);
     void take_kinematic(const InpCard& card);
+    void take_distributing(const InpCard& card);
     void take_rigid_body(const InpCard& card);
     void take_equation(const InpCard& card);
     void take_pins(const InpCard& card);

@@ -55,6 +55,7 @@ void StepReader::take_amplitude(const InpCard& card) {
     amplitude.absolute = card.parameter("VALUE") == "ABSOLUTE";
     amplitude.smooth = card.parameter("DEFINITION") == "SMOOTH STEP";
     if (card.has("SMOOTH")) say_once(deck_.changed, "*AMPLITUDE, SMOOTH: straight lines between its points");
+    if (card.parameter("DEFINITION") == "EQUALLY SPACED") return take_equally_spaced(card, std::move(amplitude));
     const Numbers values = card.row();
     if (values.size() < 2 || values.size() % 2 != 0)
         throw SceneFailure(card.place, "pairs of time and value are expected");
@@ -66,16 +67,22 @@ void StepReader::take_amplitude(const InpCard& card) {
     deck_.amplitudes.push_back(std::move(amplitude));
 }
 
+void StepReader::take_equally_spaced(const InpCard& card, Amplitude amplitude) {
+    const double interval = inp_number(card.required("FIXED INTERVAL"), card.place);
+    const double begin = card.has("BEGIN") ? inp_number(card.required("BEGIN"), card.place) : 0.0;
+    if (!(interval > 0)) throw SceneFailure(card.place, fmt::format("FIXED INTERVAL={}: must be > 0", interval));
+    for (const double value : card.row())
+        amplitude.points.emplace_back(begin + interval * static_cast<double>(amplitude.points.size()), value);
+    if (amplitude.points.empty()) throw SceneFailure(card.place, "values are expected");
+    deck_.amplitudes.push_back(std::move(amplitude));
+}
+
 void StepReader::take_step(const InpCard& card) {
     Step step;
     step.name = card.parameter("NAME");
     step.place = card.place;
     if (card.has("AMPLITUDE")) step.ramp = card.required("AMPLITUDE") == "RAMP";
-    if (card.has("NLGEOM") && upper(card.parameter("NLGEOM")) != "NO")
-        say_once(
-            deck_.changed,
-            "NLGEOM: small displacements and rotations; the program warns where cells rotate by more than 0.1 rad, and "
-            "solver.kinematics = corotational follows large rotations, in many times the time");
+    if (card.has("NLGEOM")) step.large = upper(card.parameter("NLGEOM")) != "NO";
     deck_.steps.push_back(std::move(step));
     in_step_ = true;
 }
@@ -104,9 +111,7 @@ void StepReader::take_procedure(const InpCard& card) {
     }
     if (card.keyword == "DYNAMIC") {
         if (card.parameter("APPLICATION") != "QUASI-STATIC")
-            throw SceneFailure(card.place, card.has("EXPLICIT")
-                                               ? "explicit steps stay out: give *STATIC, which has no inertia"
-                                               : "dynamic steps are not imported, but for APPLICATION=QUASI-STATIC");
+            throw SceneFailure(card.place, "dynamic steps are not imported, but for APPLICATION=QUASI-STATIC");
         say_once(deck_.changed, "*DYNAMIC: without inertia");
     }
     if (card.has("STABILIZE"))
@@ -208,7 +213,6 @@ void StepReader::take_forces(const InpCard& card) {
 
 void StepReader::take_distributed(const InpCard& card) {
     if (renews(card)) step(card).new_distributed = true;
-    if (card.has("ORIENTATION")) throw SceneFailure(card.place, "ORIENTATION is not imported");
     require_displacements(card);
     for (const InpLine& line : card.lines) {
         if (line.fields.size() < 3)

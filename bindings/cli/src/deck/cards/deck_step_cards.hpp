@@ -24,6 +24,8 @@ public:
 
 private:
     void take_amplitude(const InpCard& card);
+    // amplitude: all but its points.
+    void take_equally_spaced(const InpCard& card, Amplitude amplitude);
     void take_step(const InpCard& card);
     void end_step(const InpCard& card);
     void take_temperature(const InpCard& card);

@@ -4,5 +4,5 @@
 #include "mesh/gmsh/read_gmsh.hpp"
 
 extern "C" __attribute__((visibility("default"))) const cli::GmshModule delam_gmsh_module;
-const cli::GmshModule delam_gmsh_module{DELAM_PROGRAM_VERSION, cli::read_gmsh, cli::generate_fibre_cell,
-                                        cli::generate_weave};
+const cli::GmshModule delam_gmsh_module{DELAM_PROGRAM_VERSION, cli::read_gmsh, cli::gmsh_elements,
+                                        cli::generate_fibre_cell, cli::generate_weave};

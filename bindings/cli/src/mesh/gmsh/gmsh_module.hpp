@@ -3,7 +3,9 @@
 // and the dynamic linker takes longer for them than a small analysis takes.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "mesh/gmsh/generate_fibre_cell.hpp"
 #include "mesh/gmsh/generate_weave.hpp"
@@ -14,6 +16,7 @@ namespace cli {
 struct GmshModule {
     const char* version;  // of the program that it belongs to
     MeshFile (*read)(const std::string& path, const Place& place);
+    std::vector<std::size_t> (*elements)(const std::string& path, const Place& place);
     MeshData (*fibre_cell)(const FibreCell& cell);
     MeshData (*weave)(const WeaveCell& cell);
 };

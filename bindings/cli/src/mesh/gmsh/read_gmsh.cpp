@@ -98,6 +98,16 @@ public:
         return std::move(mesh_);
     }
 
+    // Returns the numbers of the elements of which the cells are made, block after block.
+    std::vector<std::size_t> elements() {
+        find_dimension();
+        read_nodes();
+        read_cells();
+        std::vector<std::size_t> out;
+        for (const auto& tags : tags_) out.insert(out.end(), tags.begin(), tags.end());
+        return out;
+    }
+
 private:
     [[noreturn]] void fail(const std::string& text) const { throw SceneFailure(place_, subject_ + ": " + text); }
 
@@ -231,6 +241,8 @@ private:
             block.bodies.push_back(body);
             block.partitions.push_back(partition);
         }
+        auto& known = tags_.at(static_cast<std::size_t>(&block - mesh_.blocks.data()));
+        known.insert(known.end(), tags.begin(), tags.end());
     }
 
     static std::string type_name(int gmsh_type) {
@@ -248,6 +260,7 @@ private:
         for (CellBlock& block : mesh_.blocks)
             if (block.type == type) return block;
         mesh_.blocks.push_back({type, {}, {}, {}});
+        tags_.emplace_back();
         return mesh_.blocks.back();
     }
 
@@ -332,6 +345,7 @@ private:
     std::string subject_;
     Place place_;
     MeshData mesh_;
+    std::vector<std::vector<std::size_t>> tags_;            // of the elements of each block of cells
     std::unordered_map<std::size_t, std::int64_t> number_;  // by tag
 };
 
@@ -366,6 +380,14 @@ MeshFile read_gmsh(const std::string& path, const Place& place) {
         MeshData mesh = read_gmsh_model(path, place);
         require_all_partitions(path, bytes, mesh, place);
         return MeshFile{std::move(mesh), hash_text(bytes)};
+    });
+}
+
+std::vector<std::size_t> gmsh_elements(const std::string& path, const Place& place) {
+    (void)checked_bytes(path, place);
+    return with_gmsh(place, path, [&] {
+        gmsh::merge(path);
+        return GmshReader(path, place).elements();
     });
 }
 

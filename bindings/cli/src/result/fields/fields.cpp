@@ -43,13 +43,12 @@ XdmfBlock write_interface(const Model& model, const InterfaceData& data, std::in
     std::int32_t body_b = 0;
     call(model.context.get(), delam_mesh_interface_size(mesh, index, &body_a, &body_b, &pairs, &faces, &per_face),
          what);
-    std::vector<std::int64_t> a(static_cast<std::size_t>(pairs));
-    std::vector<std::int64_t> b(a.size());
+    const auto [a, b] = nodes_of_pairs(model, index, what);
     std::vector<double> weights(a.size());
     std::vector<double> frames(a.size() * dimension * dimension);
     std::vector<std::int64_t> connectivity(static_cast<std::size_t>(faces * per_face));
-    call(model.context.get(),
-         delam_mesh_interface_pairs(mesh, index, a.data(), b.data(), weights.data(), frames.data()), what);
+    call(model.context.get(), delam_mesh_interface_pairs(mesh, index, nullptr, nullptr, weights.data(), frames.data()),
+         what);
     call(model.context.get(), delam_mesh_interface_faces(mesh, index, connectivity.data()), what);
     std::vector<double> at(3 * a.size());
     // An obstacle's node a is the control node, wherever that lies.

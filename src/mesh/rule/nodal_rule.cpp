@@ -2,8 +2,8 @@
 //
 // Rules whose points are the nodes keep the stiffness of an interface diagonal. With the integrals of the shape
 // functions as weights, the corners of a 6-node triangle would have weight zero and those of an 8-node face a negative
-// weight.
-#include "mesh/pairing/nodal_rule.hpp"
+// weight: interfaces between such faces have other pairs (mid_sides.hpp), and obstacles the weights of linear pieces.
+#include "mesh/rule/nodal_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -91,27 +91,28 @@ NodalRule quadratic_edge(const Mesh& mesh, std::span<const std::int64_t> nodes) 
     return rule;
 }
 
+// x_xi x x_eta of a face in space.
+Point area_at(const Mesh& mesh, std::span<const std::int64_t> nodes, const ShapeGradient& g) {
+    Point u{};
+    Point v{};
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double x = mesh.node(nodes[a])[i] - mesh.node(nodes[0])[i];
+            u[i] += g[2 * a] * x;
+            v[i] += g[2 * a + 1] * x;
+        }
+    return cross(u, v);
+}
+
 // Simpson's rule in both directions with the area vectors x_xi x x_eta of a 9-node face: exact to the third degree in
 // each variable, so that area vectors, and the forces of a uniform traction, are exact even on curved faces.
 NodalRule quadratic_face(const Mesh& mesh, std::span<const std::int64_t> nodes) {
     NodalRule rule;
     const std::span<const ReferencePoint> places = reference_nodes(CellType::quad9);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const ShapeGradient g = reference_gradient(CellType::quad9, places[k]);
-        Point u{};
-        Point v{};
-        for (std::size_t a = 0; a < nodes.size(); ++a)
-            for (std::size_t i = 0; i < 3; ++i) {
-                const double x = mesh.node(nodes[a])[i] - mesh.node(nodes[0])[i];
-                u[i] += g[2 * a] * x;
-                v[i] += g[2 * a + 1] * x;
-            }
+        const Point area = area_at(mesh, nodes, reference_gradient(CellType::quad9, places[k]));
         const double simpson = (places[k][0] == 0.0 ? 4.0 : 1.0) * (places[k][1] == 0.0 ? 4.0 : 1.0) / 9.0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::size_t j = (i + 1) % 3;
-            const std::size_t l = (i + 2) % 3;
-            rule.area[k][i] = simpson * (u[j] * v[l] - u[l] * v[j]);
-        }
+        for (std::size_t i = 0; i < 3; ++i) rule.area[k][i] = simpson * area[i];
         rule.weight[k] = length(rule.area[k]);
     }
     return rule;
@@ -133,6 +134,26 @@ NodalRule nodal_rule(const Mesh& mesh, std::span<const std::int64_t> nodes) {
             const auto node = index(piece.node[k]);
             rule.weight[node] += weight[k];
             for (std::size_t i = 0; i < 3; ++i) rule.area[node][i] += area[i];
+        }
+    }
+    return rule;
+}
+
+// Points and weights on the reference cell of a 6- or 8-node face: exact to degree 4 on triangles, where the six points
+// are those of wedge15 along its axis of length 2, and to degree 5 in each variable on quadrilaterals.
+NodalRule shape_integrals(const Mesh& mesh, std::span<const std::int64_t> nodes) {
+    const bool triangle = nodes.size() == 6;
+    const CellType type = triangle ? CellType::tri6 : CellType::quad8;
+    const Quadrature& gauss = quadrature(triangle ? CellType::wedge15 : CellType::quad8);
+    NodalRule rule;
+    for (std::size_t q = 0; q < gauss.points.size(); ++q) {
+        const ReferencePoint at{gauss.points[q][0], gauss.points[q][1], 0.0};
+        const ShapeValues value = shape_values(type, at);
+        const Point area = area_at(mesh, nodes, reference_gradient(type, at));
+        const double weight = (triangle ? 0.5 : 1.0) * gauss.weights[q];
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            rule.weight[k] += weight * value[k] * length(area);
+            for (std::size_t i = 0; i < 3; ++i) rule.area[k][i] += weight * value[k] * area[i];
         }
     }
     return rule;

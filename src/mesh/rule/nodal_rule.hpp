@@ -20,4 +20,9 @@ struct NodalRule {
 // face; that of a curved face is the area of its linear pieces (face_pieces).
 NodalRule nodal_rule(const Mesh& mesh, std::span<const std::int64_t> nodes);
 
+// The integrals of the shape functions, exact where the map from the reference cell is affine, and those of shape
+// function times normal, exact on curved faces too: 6-node triangles have no positive weights at corners, 8-node faces
+// negative ones.
+NodalRule shape_integrals(const Mesh& mesh, std::span<const std::int64_t> nodes);
+
 }  // namespace delam

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/deck_kinematics.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace cli::abaqus {
+
+namespace {
+
+// Returns what of a deck large rotations do not know (src/scene/check/kinematics.cpp); empty: nothing.
+std::string unknown_part(const Deck& deck, const References& references) {
+    if (references.any())
+        return "nodes that belong to no body, as *COUPLING, *RIGID BODY and *EQUATION use them, do not turn with large "
+               "rotations: prescribe displacements of nodes instead";
+    const bool heated =
+        std::any_of(deck.steps.begin(), deck.steps.end(), [](const Step& step) { return !step.temperatures.empty(); });
+    return heated ? "thermal strains are not known with large rotations" : "";
+}
+
+}  // namespace
+
+std::string kinematics_key(Deck& deck, const References& references) {
+    const auto large = [](const Step& step) { return step.large.value_or(false); };
+    const auto first = std::find_if(deck.steps.begin(), deck.steps.end(), large);
+    if (first == deck.steps.end()) {
+        if (std::any_of(deck.steps.begin(), deck.steps.end(), [](const Step& step) { return step.large.has_value(); }))
+            deck.changed.emplace_back("NLGEOM=NO: kinematics = \"linear\", which is that of a scene that names none");
+        return "";
+    }
+    if (const std::string unknown = unknown_part(deck, references); !unknown.empty()) {
+        deck.changed.push_back(
+            fmt::format("NLGEOM=YES: small displacements and rotations here, kinematics = \"linear\", because {}; the "
+                        "program warns where cells rotate by more than 0.1 rad",
+                        unknown));
+        return "";
+    }
+    deck.changed.push_back(fmt::format(
+        "NLGEOM=YES: kinematics = \"corotational\"{}: large rotations, small strains; it takes some times as long as "
+        "\"linear\" (--set solver.kinematics=linear), which does where cells rotate by less than 0.1 rad",
+        first == deck.steps.begin() ? "" : " from the first step on"));
+    return "kinematics = \"corotational\"\n";
+}
+
+}  // namespace cli::abaqus

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Several things that a file asks for and does not get, which are said together.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "text/error.hpp"
+
+namespace cli {
+
+// Where one message is expected, it is that of the first.
+class Refusals : public SceneFailure {
+public:
+    // all: one at least, in the order of the file.
+    explicit Refusals(std::vector<SceneFailure> all) : SceneFailure(all.front()), all_(std::move(all)) {}
+    [[nodiscard]] const std::vector<SceneFailure>& all() const noexcept { return all_; }
+
+private:
+    std::vector<SceneFailure> all_;
+};
+
+}  // namespace cli
