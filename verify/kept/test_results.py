@@ -10,6 +10,7 @@ import unittest
 import h5py
 import numpy as np
 
+import changes
 import support
 from compare import FRONT_TOLERANCE, Difference
 from support import MADE, scenes
@@ -44,7 +45,11 @@ class Results(support.Kept):
                     out = pathlib.Path(name) / "result"
                     shutil.copytree(made / "results" / scene.stem, out)
                     code, said, error = support.run([DELAM, "run", scene, "--out", out, "--resume"])
-                    self.assertEqual((code, "complete already" in said), (0, True), said + error)
+                    named = changes.of(made.name, f"scenes/{scene.stem}/result", changes.entries())
+                    if "scene_content_hash" in named:  # a file that makes another scene today
+                        self.assertEqual((code, "not the one of the result" in error), (2, True), said + error)
+                    else:
+                        self.assertEqual((code, "complete already" in said), (0, True), said + error)
 
     def test_view(self):
         for fields in (path for made in MADE for path in made.glob("results/*/fields.h5")):

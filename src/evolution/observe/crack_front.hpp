@@ -18,6 +18,7 @@
 // zone, so that where the front is curved this is the length in the middle of the zone.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -39,8 +40,8 @@ struct FrontPoint {
     double zone_pairs = 0.0;  // number of pairs in it
 
     double total() const { return rate[0] + rate[1] + rate[2]; }
-    // Share of the shearing modes; 0 if the rate is 0.
-    double mixity() const { return total() > 0.0 ? (rate[1] + rate[2]) / total() : 0.0; }
+    // Share of the shearing modes; 0 if the rate is 0, 1 where contact presses at the front.
+    double mixity() const { return total() > 0.0 ? std::min((rate[1] + rate[2]) / total(), 1.0) : 0.0; }
 };
 
 // A front; in 2D it has one point.

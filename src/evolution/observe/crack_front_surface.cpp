@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "evolution/observe/crack_front.hpp"
-#include "evolution/observe/pair_links.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/points.hpp"
+#include "mesh/rule/pair_links.hpp"
 #include "scene/advice/process_zone.hpp"
 
 namespace delam {

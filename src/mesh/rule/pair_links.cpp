@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evolution/observe/pair_links.hpp"
+#include "mesh/rule/pair_links.hpp"
 
 #include <algorithm>
 #include <cmath>
