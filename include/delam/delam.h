@@ -1167,11 +1167,11 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   crack_length              L or L2  initially open part, plus sum of w (1 - zeta) over the pairs with initial
  *                                      adhesion > 0
  *   energy_release_rate       F/L      G at the point of the fronts with the largest G; 0 if there is no front
- *   front_mixity              -        (G_II + G_III)/G at that point
+ *   front_mixity              -        (G_II + G_III)/G at that point, at most 1
  *   process_zone_length       L        length of the process zone at that point
  *   process_zone_pairs        -        number of pairs in the process zone at that point
  *   energy_release_rate_mean  F/L      mean of G along the fronts, in 3D weighted by length, in 2D over the tips
- *   front_mixity_mean         -        (G_II + G_III)/G of that mean
+ *   front_mixity_mean         -        (G_II + G_III)/G of that mean, at most 1
  *   crack_area                L or L2  initially open part, plus what the middle of the process zone has swept
  *   process_zone_length_mean  L        mean length of the process zone along the fronts, weighted likewise
  *   process_zone_pairs_mean   -        mean number of pairs in it, weighted likewise
@@ -1376,7 +1376,8 @@ DELAM_API int32_t delam_solver_front_count(const delam_solver *solver, int64_t i
  * (Rice 1968). The path goes from the open crack to beyond the process zone. The total is int Y dzeta/dx dx. It equals
  * Gc where a front grows steadily. It depends neither on where the path ends nor on closed contact. On a stiff
  * interface with a sharp front, J is the virtual crack closure technique, 1/2 traction times the opening behind the
- * front.
+ * front. The traction is that of the interface and of contact. Mode I is negative where contact takes more than the
+ * interface gives.
  * As the mesh is refined, the rates become exact if the interface is straight, the bodies do not vary along it, and
  * there are no eigenstrains. They are approximate on curved interfaces (radius not much larger than the process zone),
  * with eigenstrains, and where materials change along the interface. In 3D, the rates of a point are means over a band

@@ -24,12 +24,20 @@
 #include <span>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "law/law.hpp"
 #include "mesh/mesh.hpp"
 
 namespace delam {
 
 using Vector3 = std::array<double, 3>;  // third component 0 in 2D
+
+inline double total_rate(const Vector3& rate) { return rate[0] + rate[1] + rate[2]; }
+// Share of the shearing modes; 0 if the rate is 0, 1 where contact presses at the front.
+inline double shear_share(const Vector3& rate) {
+    const double total = total_rate(rate);
+    return total > 0.0 ? std::min((rate[1] + rate[2]) / total, 1.0) : 0.0;
+}
 
 struct FrontPoint {
     Vector3 place{};
@@ -39,9 +47,8 @@ struct FrontPoint {
     double zone = 0.0;        // process zone along `direction`, L
     double zone_pairs = 0.0;  // number of pairs in it
 
-    double total() const { return rate[0] + rate[1] + rate[2]; }
-    // Share of the shearing modes; 0 if the rate is 0, 1 where contact presses at the front.
-    double mixity() const { return total() > 0.0 ? std::min((rate[1] + rate[2]) / total(), 1.0) : 0.0; }
+    double total() const { return total_rate(rate); }
+    double mixity() const { return shear_share(rate); }
 };
 
 // A front; in 2D it has one point.
@@ -79,6 +86,12 @@ double process_zone(const CrackedInterface& interface);
 // True if the pair is neither damaged nor initially open: if the adhesion of two such pairs differs, no crack is the
 // cause.
 inline bool undamaged(double initial, double adhesion) { return initial > 0.0 && adhesion >= initial; }
+// True if a crack has parted two pairs.
+inline bool parted(const CrackedInterface& interface, std::int64_t p, std::int64_t q) {
+    const double initial_p = interface.initial[index(p)], initial_q = interface.initial[index(q)];
+    const double adhesion_p = interface.adhesion[index(p)], adhesion_q = interface.adhesion[index(q)];
+    return adhesion_p != adhesion_q && !(undamaged(initial_p, adhesion_p) && undamaged(initial_q, adhesion_q));
+}
 
 std::vector<CrackFront> crack_fronts(const CrackedInterface& interface);
 // Marks the cells of the mesh, [cells], within two faces of a place where exhausted pairs meet others.

@@ -226,8 +226,7 @@ private:
     }
     // 1/2 (t_1.[u]_0 - t_0.[u]_1)
     void add_link(std::int64_t i0, std::int64_t i1, double share, FrontPoint& out) const {
-        if (adhesion(i0) == adhesion(i1)) return;
-        if (undamaged(initial(i0), adhesion(i0)) && undamaged(initial(i1), adhesion(i1))) return;
+        if (!parted(interface_, pair(i0), pair(i1))) return;
         Vector3 rate{};
         add_closure(interface_, pair(i0), pair(i1), 0.5 * share, out.direction, rate);
         out.rate[0] += rate[0];

@@ -100,13 +100,6 @@ private:
     std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> number_;
 };
 
-// True if a crack has parted two pairs.
-bool works(const CrackedInterface& interface, std::int64_t p, std::int64_t q) {
-    const double initial_p = interface.initial[index(p)], initial_q = interface.initial[index(q)];
-    const double adhesion_p = interface.adhesion[index(p)], adhesion_q = interface.adhesion[index(q)];
-    return adhesion_p != adhesion_q && !(undamaged(initial_p, adhesion_p) && undamaged(initial_q, adhesion_q));
-}
-
 struct Line {
     std::vector<std::size_t> crossing;
     bool closed = false;
@@ -255,7 +248,7 @@ public:
     }
 
 private:
-    bool works(std::size_t side) const { return delam::works(interface_, pair_[side], pair_[(side + 1) % 3]); }
+    bool works(std::size_t side) const { return parted(interface_, pair_[side], pair_[(side + 1) % 3]); }
 
     const CrackedInterface& interface_;
     std::array<std::int64_t, 3> pair_;
@@ -363,7 +356,7 @@ public:
         }
         for (const PairLink& link : links_) {
             const double fall = spent_[index(link.from)] - spent_[index(link.to)];
-            const bool working = works(interface_, link.from, link.to);
+            const bool working = parted(interface_, link.from, link.to);
             if (!working && fall == 0.0) continue;
             const Near near = nearest_(0.5 * (place_of(interface_, link.from) + place_of(interface_, link.to)));
             const Vector3 n = unit(direction(near));

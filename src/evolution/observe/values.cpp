@@ -186,7 +186,6 @@ double mean_of(const Reading& r, std::int64_t interface, double FrontPoint::*mem
     }
     return whole > 0.0 ? sum / whole : 0.0;
 }
-double total_of(const Vector3& rate) { return rate[0] + rate[1] + rate[2]; }
 
 constexpr const char* by_recovery = "reading it takes a sparse solve, which recovers the displacements";
 constexpr const char* counts_on = "it counts since the solver was created and is not part of a state";
@@ -369,12 +368,9 @@ constexpr Row table[] = {
     front_row("process_zone_pairs", "-", "pairs in the process zone at that point",
               [](const Reading& r, std::int64_t i) { return leading_point(r, i).zone_pairs; }),
     front_row("energy_release_rate_mean", "F/L", "mean energy release rate along the fronts; 0: there is no front",
-              [](const Reading& r, std::int64_t i) { return total_of(mean_rate(r, i)); }),
+              [](const Reading& r, std::int64_t i) { return total_rate(mean_rate(r, i)); }),
     front_row("front_mixity_mean", "-", "share of the shearing modes in that mean",
-              [](const Reading& r, std::int64_t i) {
-                  const Vector3 rate = mean_rate(r, i);
-                  return total_of(rate) > 0.0 ? (rate[1] + rate[2]) / total_of(rate) : 0.0;
-              }),
+              [](const Reading& r, std::int64_t i) { return shear_share(mean_rate(r, i)); }),
     front_row("crack_area", "L or L2",
               "initially open length or area plus what the line in the middle of the process zone has swept",
               [](const Reading& r, std::int64_t i) { return over_interfaces(r, i, crack_area); }),

@@ -18,14 +18,16 @@ namespace {
 // 1/16 it is 1/27, with 1/4 it is 1/9). Smaller s make the moment of an opening that varies over a face more accurate.
 constexpr double share_of_8 = 0.25, share_of_6 = 0.125;
 // Corners with less than this part of the area around them get larger s. It bounds the weights of distorted faces: the
-// corners of undistorted ones have 1/36 and more. (Measured with unit/test_mid_sides: half makes the same interfaces.)
+// corners of undistorted ones have 1/36 and more. (Measured with unit/test_mid_sides,
+// whose mid-side nodes are up to .24 off: half and twice make the same interfaces.)
 constexpr double least_corner = 0.01;
 // Sides that deviate from a straight one with its node in the middle by less than this part of their length do so by
 // rounding: their pairs are at the node, to the last digit. (Coordinates of 16 digits deviate by 3e-13 on sides of a
-// thousandth of the scene; half and twice decide alike there.)
+// thousandth of the scene; half and twice make the same interfaces in unit/test_mid_sides.)
 constexpr double straight_side = 1e-12;
 // So often s is doubled at most. a = s / (1 + 2s) is then within 1e-3 of 1/2, with which corners have the weights of
-// linear faces.
+// linear faces. (Two suffice in unit/test_mid_sides, so that half and twice make the same interfaces; none fails
+// there.)
 constexpr int most_doublings = 8;
 
 // The nodes of a mesh and those that follow when an interface is appended.

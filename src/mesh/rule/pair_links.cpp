@@ -2,9 +2,7 @@
 #include "mesh/rule/pair_links.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -17,8 +15,8 @@ namespace delam {
 
 namespace {
 
-// Directions of links are parallel if the determinant of their sum of squares is below this part of the square of its
-// trace: half and twice decide alike for links that enclose more than 1e-5 rad.
+// Links of a pair are parallel if the determinant of M is below this part of the square of its trace: the square of
+// half the sine of their angle, 2e-5 rad. Half and twice give the same sums in unit/test_pair_links.
 constexpr double parallel = 1e-10;
 
 // A face without padding, by its pairs; a side k lies between the corners k and k + 1.
@@ -92,7 +90,7 @@ private:
 // Fits gradients in the tangent plane of a pair: grad f = M^-1 sum r (f(x + r) - f(x)), M = sum r r^T.
 class Fit {
 public:
-    Fit(const double* tangents) : tangents_(tangents) {}
+    explicit Fit(const double* tangents) : tangents_(tangents) {}
     void add(const Point& reach) {
         const auto [s, t] = in_plane(reach);
         m_[0] += s * s, m_[1] += s * t, m_[2] += t * t;

@@ -20,7 +20,9 @@ struct PairLink {
 };
 
 // The links of an interface in space; none if its faces have no mid-side nodes. The gradient at a pair is that of the
-// linear function that fits its links best; a sum over pairs takes it times their weights.
+// linear function that fits its links best; a sum over pairs takes it times their weights. Pairs whose links have one
+// direction (of a triangle with two sides on the rim) count along it only, and those beside a face of another shape,
+// which have none, not at all.
 std::vector<PairLink> pair_links(const Mesh& mesh, const InterfaceGeometry& interface);
 
 }  // namespace delam

@@ -422,8 +422,7 @@ int analyse(const Analysis& of) {
         if (code != exit_interrupted && scene.imported && option_text(solver.get(), "kinematics") == "corotational")
             complain(
                 "delam: with large rotations, NLGEOM=YES of the deck, an analysis may stop where small ones go on: "
-                "--set "
-                "solver.kinematics=linear\n");
+                "--set solver.kinematics=linear\n");
         return code;
     }
     if (code == exit_not_converged)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several things that a file asks for and does not get, which are said together.
+// Holds several things that a file asks for and does not get, which are said together.
 #pragma once
 
 #include <utility>
@@ -9,7 +9,7 @@
 
 namespace cli {
 
-// Where one message is expected, it is that of the first.
+// Gives the first message where one is expected.
 class Refusals : public SceneFailure {
 public:
     // all: one at least, in the order of the file.

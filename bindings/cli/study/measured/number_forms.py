@@ -11,11 +11,11 @@ import csv
 import re
 from dataclasses import dataclass
 
-# Separator, decimal sign; of two that make as many rows, the first.
+# Separators with decimal signs: of two that make as many rows, the first one counts.
 WAYS = (("\t", "."), ("\t", ","), (";", "."), (";", ","), (",", "."), (",", ","), (" ", "."), (" ", ","))
 NAMES = {"\t": "tabs", ";": "semicolons", ",": "commas", " ": "blanks"}
 
-# Between thousands: apostrophes, and blanks that do not break a line; the other one of point and comma.
+# Signs that stand between thousands: apostrophes, and blanks that do not break a line; besides, the other one of point and comma.
 GROUPS = "['’ \u00a0\u2009\u202f]"
 
 

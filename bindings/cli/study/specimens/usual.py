@@ -5,5 +5,5 @@
 # 1000 always is.
 TOUGHNESS = (10, 2e4)
 
-# What specimens usually have, mm and GPa.
+# Specimens usually have these lengths and this modulus, mm and GPa.
 ARM, WIDTH, LENGTH, E1 = (0.4, 20), (5, 100), (10, 300), (10, 600)
