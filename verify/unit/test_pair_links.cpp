@@ -74,9 +74,10 @@ TEST(triangles_at_corners_count_in_one_direction) {
     }
 }
 
+// Fronts that are one and a half cells and more from the ends of the interface, where links go to one side only.
 TEST(a_step_has_the_length_of_its_front) {
     for (const CellType type : quadratic_cells)
-        for (const std::int64_t n : {2, 3, 5})
+        for (const std::int64_t n : {3, 5})
             for (const double front : {0.55, 0.95, 1.05, 1.3}) {
                 const Mesh mesh = bonded(type, {2, 1}, {2 * n, n});
                 const Point g = gradient(mesh, [&](const Point& x) { return x[0] < front ? 0.0 : 1.0; });
