@@ -170,6 +170,13 @@ class Staging(unittest.TestCase):
             self.assertIn("(options.md)", index, "the file of a generated page leads to that page")
             self.assertGreater(len(stage.wanted), 30)
 
+    def test_generated_pages(self):
+        build = pathlib.Path(os.environ["DELAM"]).resolve().parents[1]
+        made = generate.pages(build)
+        self.assertEqual(sorted(made), sorted(page for page in generate.PAGES.values() if not page.startswith("notebook/")))
+        for page, text in made.items():
+            self.assertTrue(text.startswith("# "), page)
+
     def test_dead_links(self):
         for page, words in (("[x](../../../../README.md#no-such-place)\n", "README.md has no heading #no-such-place"),
                             ("# A heading\n\n[x](#other)\n", "has no heading #other"),

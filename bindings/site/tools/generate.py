@@ -107,7 +107,7 @@ def pages(build):
     """{name: text} of PAGES, but for the notebook."""
     said, schema = asked(build, "options", "--json"), asked(build, "schema")
     scene = scene_keys(schema).replace("(../cli/SCENE.md)", "(../tree/bindings/cli/SCENE.md)")
-    return dict(zip(PAGES, (options(said), laws(said), scene)))
+    return dict(zip(PAGES.values(), (options(said), laws(said), scene)))
 
 
 def documents(names, source):
