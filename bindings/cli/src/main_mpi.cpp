@@ -17,7 +17,7 @@
 #include "command/line/program.hpp"
 #include "delam/petsc.h"
 #include "file/descriptors.hpp"
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 #include "result/fields/rank_fields.hpp"
 #include "text/error.hpp"
 #include "text/say.hpp"

@@ -173,7 +173,8 @@ class Staging(unittest.TestCase):
     def test_generated_pages(self):
         build = pathlib.Path(os.environ["DELAM"]).resolve().parents[1]
         made = generate.pages(build)
-        self.assertEqual(sorted(made), sorted(page for page in generate.PAGES.values() if not page.startswith("notebook/")))
+        pages = [page for page in generate.PAGES.values() if not page.startswith("notebook/")]
+        self.assertEqual(sorted(made), sorted(pages))
         for page, text in made.items():
             self.assertTrue(text.startswith("# "), page)
 

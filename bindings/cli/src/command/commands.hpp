@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 #include "text/unit.hpp"
 
 namespace cli {

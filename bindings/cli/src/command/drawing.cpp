@@ -15,9 +15,9 @@
 #include <unistd.h>
 
 #include "command/commands.hpp"
-#include "model/call.hpp"
-#include "model/model.hpp"
-#include "model/selection.hpp"
+#include "model/library/call.hpp"
+#include "model/library/model.hpp"
+#include "model/library/selection.hpp"
 #include "text/error.hpp"
 #include "text/unit.hpp"
 #include "view/view_surface.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The history of a place: its values over time, as the lines of a deck prescribe them.
+// Histories: values over time as points with straight lines between them, and what the lines of a deck prescribe at a
+// place.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +9,22 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "deck/cards/deck.hpp"
-#include "deck/deck_points.hpp"
 #include "text/toml_text.hpp"
 
 namespace cli::abaqus {
+
+using Points = std::vector<std::pair<double, double>>;  // instants and values
+
+// Returns the value at an instant; constant before the first point and after the last.
+double between(const Points& points, double x);
+// Returns the values of an amplitude as straight lines; a SMOOTH STEP, whose parts are polynomials of fifth order, in
+// 16 each.
+Points lines_of(const Amplitude& amplitude);
 
 // When a support holds (SCENE.md); nothing: from the first instant, or to the last.
 struct Times {

@@ -12,6 +12,7 @@
 
 #include "deck/abaqus/keywords.hpp"
 #include "deck/deck_bodies.hpp"
+#include "deck/deck_connections.hpp"
 #include "deck/deck_laws.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesh/near_bodies.hpp"
@@ -27,22 +28,6 @@ constexpr double allowance = 1.001;
 // near.
 constexpr double most_tolerance = 0.49;
 
-struct Held {
-    std::int32_t a = 0, b = 0;
-    std::string law;  // empty: contact
-    std::string set;  // the faces or nodes that adhere; empty: all
-    double gap = 0;   // between the faces; 0: they coincide
-    bool matching = true;
-    Place place;
-    double tolerance = 0;  // at which nodes match, over the shortest edge; 0: that of the scene
-    bool open = false;     // surfaces, whose distance counts
-    double adjust = 0;
-    bool bonded = false;   // tied
-    bool shared = false;   // bonded where the bodies share nodes
-    std::string joined{};  // the set of these faces and others to which an equal section gives the law; empty: none
-    Vector shear_axis{1, 0, 0};  // projected: axis 1 of a law with two stiffnesses in shear
-};
-
 class Interfaces {
 public:
     Interfaces(Deck& deck, const Model& model, const MeshData& mesh)
@@ -55,7 +40,8 @@ public:
           places_(mesh, edge_),
           cohesive_sections_(deck, model, &Part::cohesive_sections),
           laws_(deck, mesh.dimension, edge_),
-          neighbours_(mesh.body_names.size()) {
+          neighbours_(mesh.body_names.size()),
+          connections_(mesh, places_) {
         for (const BodyPair& pair : pairs_of_bodies(mesh, faces_, edge_, model.file)) {
             touching_[{pair.a, pair.b}] = pair;
             neighbours_[static_cast<std::size_t>(pair.a)].push_back(pair.b);
@@ -71,9 +57,10 @@ public:
         if (!deck_.adhering.empty()) add_everywhere();
         for (const auto& [key, pair] : touching_) bond_shared(pair);
         std::string out = laws_.text();
-        for (const Held& held : held_) out += entry(held);
+        out += connections_.text(laws_);
+        for (const std::string& said : connections_.said()) deck_.changed.push_back(said);
         for (const auto& [key, pair] : touching_) {
-            if (find(pair.a, pair.b) != nullptr) continue;
+            if (connections_.find(pair.a, pair.b) != nullptr) continue;
             out += fmt::format("[[interfaces]]\na = {}\nb = {}\n{} = true\n\n", body(pair.a), body(pair.b),
                                pair.shared > 0 ? "bonded" : "contact");
             if (pair.shared == 0 && !deck_.general_contact)
@@ -100,15 +87,10 @@ private:
         return toml_text(mesh_.body_names[static_cast<std::size_t>(label)]);
     }
 
-    Held* find(std::int32_t a, std::int32_t b) {
-        const auto found = held_by_.find(std::minmax(a, b));
-        return found == held_by_.end() ? nullptr : &held_[found->second];
-    }
-
     // Returns the distance at which every body that is held by nothing meets another, up to an edge of a cell.
     [[nodiscard]] double general_gap() const {
         std::vector<bool> held(mesh_.body_names.size(), false);
-        for (const Held& each : held_)
+        for (const Held& each : connections_.all())
             held[static_cast<std::size_t>(each.a)] = held[static_cast<std::size_t>(each.b)] = true;
         double out = 0;
         for (std::size_t body = 0; body < held.size(); ++body) {
@@ -121,11 +103,11 @@ private:
 
     // Bodies that share some nodes are bonded there, whatever they have between their doubled nodes elsewhere.
     void bond_shared(const BodyPair& pair) {
-        Held* held = find(pair.a, pair.b);
+        Held* held = connections_.find(pair.a, pair.b);
         if (pair.shared == 0 || (pair.doubled == 0 && held == nullptr)) return;
         if (held == nullptr) {
-            add({pair.a, pair.b, "", "", 0.0, true, model_.file});
-            held = find(pair.a, pair.b);
+            connections_.add({pair.a, pair.b, "", "", 0.0, true, model_.file});
+            held = connections_.find(pair.a, pair.b);
             deck_.changed.push_back(
                 fmt::format("{} and {} touch where they share no nodes, and have nothing between "
                             "them: here they are in contact",
@@ -141,40 +123,6 @@ private:
                                                                      : "have faces that are apart elsewhere",
                             sections_of_one_side));
         held->shared = true;
-    }
-
-    void add(const Held& held) {
-        // Contact acts in every interface: a pair that asks for it alone adds nothing to a law.
-        Held* other = find(held.a, held.b);
-        if (other != nullptr && held.bonded) {
-            if (!other->law.empty())
-                throw SceneFailure(held.place, fmt::format("{} and {} are held together by {} already", body(held.a),
-                                                           body(held.b), other->place.text()));
-            *other = held;
-            return;
-        }
-        if (other != nullptr && other->bonded) return;
-        if (other == nullptr) {
-            held_by_.emplace(std::minmax(held.a, held.b), held_.size());
-            held_.push_back(held);
-        } else if (held.law.empty()) {
-            other->gap = std::max(other->gap, held.gap);
-            other->adjust = std::max(other->adjust, held.adjust);
-            return;
-        } else if (other->law.empty()) {
-            *other = held;
-        } else if (other->law == held.law && !held.joined.empty() && other->joined == held.joined &&
-                   other->matching == held.matching) {
-            other->set = held.joined;
-            other->gap = std::max(other->gap, held.gap);
-            other->tolerance = std::max(other->tolerance, held.tolerance);
-        } else if (other->law != held.law || other->set != held.set) {
-            throw SceneFailure(held.place,
-                               fmt::format("{} and {} are held together by {} already: an interface has one law, of "
-                                           "one set or of sections that say the same; give the cells on one side of "
-                                           "each part an *ELSET and a *SOLID SECTION of their own",
-                                           body(held.a), body(held.b), other->place.text()));
-        }
     }
 
     [[nodiscard]] double distance(std::int64_t a, std::int64_t b) const {
@@ -253,7 +201,7 @@ private:
                 held.tolerance = allowance * gap / edge_;
             else if (apart)
                 held.gap = allowance * gap;
-            add(held);
+            connections_.add(held);
         }
         if (loose)
             deck_.changed.push_back(
@@ -315,13 +263,13 @@ private:
                 held.open = true;
                 held.adjust = pair.adjust;
             }
-            add(held);
+            connections_.add(held);
             ++added;
         }
         for (auto b = slaves.begin(); b != slaves.end() && !two; ++b)
             for (const std::int32_t a : neighbours_[static_cast<std::size_t>(*b)]) {
                 if (!masters.contains(a)) continue;
-                add({a, *b, law, set, 0.0, true, pair.place});
+                connections_.add({a, *b, law, set, 0.0, true, pair.place});
                 ++added;
             }
         if (added == 0)
@@ -352,7 +300,7 @@ private:
                 held.bonded = true;
                 if (!held.matching) held.gap = tied_gap(tie);
                 require_whole(tie, held);
-                add(held);
+                connections_.add(held);
                 ++added;
             }
         if (added == 0)
@@ -401,8 +349,9 @@ private:
             throw SceneFailure(interaction.place, "ELIGIBILITY=" + interaction.eligibility +
                                                       " needs surfaces in *CONTACT PROPERTY ASSIGNMENT");
         for (const auto& [key, pair] : touching_)
-            if (pair.shared == 0 && find(pair.a, pair.b) == nullptr)
-                add({pair.a, pair.b, laws_.of_interaction(interaction), "", 0.0, true, deck_.adhering_place});
+            if (pair.shared == 0 && connections_.find(pair.a, pair.b) == nullptr)
+                connections_.add(
+                    {pair.a, pair.b, laws_.of_interaction(interaction), "", 0.0, true, deck_.adhering_place});
     }
 
     // The slave surface, or its bonded nodes, determine what adheres; the master must not say less.
@@ -437,25 +386,6 @@ private:
         return name;
     }
 
-    [[nodiscard]] std::string entry(const Held& held) const {
-        std::string out =
-            fmt::format("{}[[interfaces]]\na = {}\nb = {}\n", origin_line(held.place), body(held.a), body(held.b));
-        out += held.bonded        ? "bonded = true\n"
-               : held.law.empty() ? "contact = true\n"
-                                  : fmt::format("law = {}\n", toml_text(held.law));
-        if (laws_.two_shears(held.law))
-            out += fmt::format("shear_axis = {}  # projected: axis 1 of the deck\n",
-                               toml_list(std::vector<double>(held.shear_axis.begin(), held.shear_axis.end())));
-        if (held.shared) out += "shared = \"bonded\"\n";
-        if (!held.matching) out += "projected = true\n";
-        if (held.tolerance > 0) out += fmt::format("tolerance = {}\n", toml_number(held.tolerance));
-        if (held.gap > 0) out += fmt::format("gap = {}\n", toml_number(held.gap));
-        if (held.open && !held.law.empty()) out += "initial_gap = \"open\"\n";
-        if (held.open && held.adjust > 0) out += fmt::format("adjust = {}\n", toml_number(held.adjust));
-        if (!held.set.empty()) out += fmt::format("notch = [{{ set = {}, outside = true }}]\n", toml_text(held.set));
-        return out + "\n";
-    }
-
     Deck& deck_;
     const Model& model_;
     const MeshData& mesh_;
@@ -467,9 +397,8 @@ private:
     DeckLaws laws_;
     std::map<std::pair<std::int32_t, std::int32_t>, BodyPair> touching_;
     std::vector<std::vector<std::int32_t>> neighbours_;  // by body: those that touch it, ascending
-    std::vector<Held> held_;
-    std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> held_by_;  // by bodies
-    std::map<std::string, std::set<std::int32_t>> bodies_of_;               // by surface
+    Connections connections_;
+    std::map<std::string, std::set<std::int32_t>> bodies_of_;  // by surface
 };
 
 }  // namespace

@@ -15,7 +15,6 @@
 #include "deck/deck_bodies.hpp"
 #include "deck/deck_history.hpp"
 #include "deck/deck_instants.hpp"
-#include "deck/deck_points.hpp"
 #include "deck/deck_temperatures.hpp"
 #include "deck/deck_transforms.hpp"
 #include "text/toml_text.hpp"

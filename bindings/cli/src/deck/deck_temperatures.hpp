@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "deck/cards/deck.hpp"
-#include "deck/deck_points.hpp"
+#include "deck/deck_history.hpp"
 #include "mesh/mesh_data.hpp"
 
 namespace cli::abaqus {

@@ -16,10 +16,10 @@
 #include "model/build_contact.hpp"
 #include "model/build_materials.hpp"
 #include "model/build_mesh.hpp"
-#include "model/call.hpp"
-#include "model/named.hpp"
+#include "model/library/call.hpp"
+#include "model/library/named.hpp"
+#include "model/library/selection.hpp"
 #include "model/notes.hpp"
-#include "model/selection.hpp"
 #include "model/sensitivities.hpp"
 
 namespace cli {

@@ -2,7 +2,7 @@
 // Builds the library's objects from a scene.
 #pragma once
 
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 
 namespace cli {
 

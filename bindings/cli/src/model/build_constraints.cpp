@@ -6,9 +6,9 @@
 #include <limits>
 #include <numeric>
 
-#include "model/call.hpp"
+#include "model/library/call.hpp"
+#include "model/library/selection.hpp"
 #include "model/notes.hpp"
-#include "model/selection.hpp"
 
 namespace cli {
 

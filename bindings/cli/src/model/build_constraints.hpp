@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 
 namespace cli {
 

@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 
 #include "delam/experimental.h"
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 
 namespace cli {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 
 namespace cli {
 

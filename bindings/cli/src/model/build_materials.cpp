@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "delam/experimental.h"
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 
 namespace cli {
 

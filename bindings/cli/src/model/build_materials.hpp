@@ -3,7 +3,7 @@
 #pragma once
 
 #include "delam/delam.h"
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 #include "scene/scene.hpp"
 
 namespace cli {

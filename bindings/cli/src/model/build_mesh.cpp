@@ -2,6 +2,7 @@
 #include "model/build_mesh.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -11,8 +12,10 @@
 
 #include "delam/experimental.h"
 #include "model/build_contact.hpp"
-#include "model/call.hpp"
-#include "model/selection.hpp"
+#include "model/interface_parts.hpp"
+#include "model/library/call.hpp"
+#include "model/library/interface_pairs.hpp"
+#include "model/library/selection.hpp"
 #include "text/wildcard.hpp"
 
 namespace cli {
@@ -86,6 +89,18 @@ void add_obstacles(Model& model, const Scene& scene) {
     }
 }
 
+// Returns the entries that are like entry i, if it is the first of them; otherwise none.
+InterfaceEntries entries_from(const Scene& scene, std::size_t i,
+                              const std::function<bool(const InterfaceData&)>& alike) {
+    InterfaceEntries entries;
+    for (std::size_t k = 0; k < scene.interfaces.size(); ++k) {
+        if (!alike(scene.interfaces[k])) continue;
+        if (k < i) return {};
+        entries.push_back(&scene.interfaces[k]);
+    }
+    return entries;
+}
+
 void build_layers(Model& model, const Scene& scene) {
     std::vector<double> thickness;
     std::vector<std::int64_t> divisions;
@@ -101,14 +116,18 @@ void build_layers(Model& model, const Scene& scene) {
     model.mesh.reset(handle);
     call(model.context.get(), status, geometry.place);
     if (!scene.controls.empty()) handle = append_controls(model, scene);
-    for (const InterfaceData& interface : scene.interfaces) {
+    for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+        const InterfaceData& data = scene.interfaces[i];
+        const auto between_these = [&](const InterfaceData& other) { return other.lower == data.lower; };
+        const InterfaceEntries entries = entries_from(scene, i, between_these);
+        if (entries.empty()) continue;
         std::int64_t index = 0;
         call(model.context.get(),
-             delam_mesh_add_interface(handle, static_cast<std::int32_t>(interface.lower),
-                                      static_cast<std::int32_t>(interface.upper), 0.0, &index),
-             interface.place);
+             delam_mesh_add_interface(handle, static_cast<std::int32_t>(data.lower),
+                                      static_cast<std::int32_t>(data.upper), 0.0, &index),
+             data.place);
+        push_parts(model, scene, entries, data.lower, data.upper);
     }
-    model.interfaces = scene.interfaces;
 }
 
 // Splits off the pairs of the last interface whose two nodes are one in the file, and bonds them.
@@ -148,13 +167,15 @@ void bond_shared(Model& model, const Scene& scene, std::int64_t index) {
 void add_named_interfaces(Model& model, const Scene& scene) {
     std::map<std::string, std::size_t> body_named;
     for (std::size_t i = 0; i < scene.mesh->body_names.size(); ++i) body_named.emplace(scene.mesh->body_names[i], i);
-    std::set<std::pair<std::size_t, std::size_t>> held;
-    for (const InterfaceData& data : scene.interfaces) {
-        if (data.a.empty() || data.within() || is_pattern(data.a) || is_pattern(data.b)) continue;
+    for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+        const InterfaceData& data = scene.interfaces[i];
+        if (data.a.empty() || data.within() || is_pattern(data.a + data.b)) continue;
+        const InterfaceEntries entries = entries_from(scene, i, [&](const InterfaceData& other) {
+            return (other.a == data.a && other.b == data.b) || (other.a == data.b && other.b == data.a);
+        });
+        if (entries.empty()) continue;
         const std::size_t a = body_named.at(data.a);
         const std::size_t b = body_named.at(data.b);
-        if (!held.insert(std::minmax(a, b)).second)
-            throw SceneFailure(data.place, "there is another interface between these bodies");
         std::int64_t index = 0;
         const auto label_a = static_cast<std::int32_t>(a);
         const auto label_b = static_cast<std::int32_t>(b);
@@ -163,7 +184,7 @@ void add_named_interfaces(Model& model, const Scene& scene) {
              : data.projected ? delam_mesh_add_mortar_interface(model.mesh.get(), label_a, label_b, data.gap, &index)
                               : delam_mesh_add_interface(model.mesh.get(), label_a, label_b, data.tolerance, &index),
              data.place);
-        push_interface(model, scene, data, a, b);
+        push_parts(model, scene, entries, a, b);
         if (data.shared_bonded) bond_shared(model, scene, index);
     }
 }
@@ -251,166 +272,6 @@ void build_from(Model& model, const Scene& scene) {
     add_other_interfaces(model, scene);
 }
 
-// The pairs of an interface that lie in a set.
-class RegionPairs {
-public:
-    RegionPairs(const Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data)
-        : dimension_(static_cast<std::size_t>(scene.geometry.dimension)),
-          seam_(data.within() || data.shared_bonded),
-          mesh_(*scene.mesh) {
-        const Place& place = data.place;
-        const delam_context* context = model.context.get();
-        const delam_mesh* mesh = model.mesh.get();
-        std::int64_t pairs = 0;
-        std::int64_t nodes = 0;
-        std::int64_t faces = 0;
-        std::int32_t per_face = 0;
-        call(context, delam_mesh_interface_size(mesh, index, nullptr, nullptr, &pairs, &faces, &per_face), place);
-        call(context, delam_mesh_size(mesh, nullptr, &nodes, nullptr, nullptr, nullptr), place);
-        node_a_.resize(static_cast<std::size_t>(pairs));
-        node_b_.resize(node_a_.size());
-        origins_.resize(static_cast<std::size_t>(nodes));
-        faces_.resize(static_cast<std::size_t>(faces * per_face));
-        per_face_ = static_cast<std::size_t>(per_face);
-        weights_.resize(node_b_.size());
-        call(context, delam_mesh_interface_pairs(mesh, index, node_a_.data(), node_b_.data(), weights_.data(), nullptr),
-             place);
-        call(context, delam_mesh_interface_faces(mesh, index, faces_.data()), place);
-        call(context, delam_mesh_node_origins(mesh, nodes, origins_.data()), place);
-    }
-
-    // Returns the area of the faces in a set, and that of the pairs that are not without a face in it.
-    [[nodiscard]] std::array<double, 2> areas(const Region& region, const std::vector<std::int64_t>& without) const {
-        std::array<double, 2> out{};
-        if (seam_) return out;
-        for (const double weight : weights_) out[1] += weight;
-        for (const std::int64_t pair : without) out[1] -= weights_[static_cast<std::size_t>(pair)];
-        for (const std::size_t face : faces_in(region.set)) out[0] += area(face);
-        return out;
-    }
-
-    // Returns the pairs of a set: those all of whose faces lie in it, or those without a face in it.
-    [[nodiscard]] std::vector<std::int64_t> in(const Region& region) const {
-        if (region.outside) return outside(region.set);
-        const std::vector<std::int64_t>& set = mesh_.node_sets.at(region.set);
-        const auto in_set = [&](std::int64_t pair) {
-            return either(pair, [&](std::int64_t n) { return std::binary_search(set.begin(), set.end(), n); });
-        };
-        // A pair from which a face leads out is a tip.
-        std::vector<bool> tip(node_b_.size(), false);
-        for (std::size_t f = 0; f < faces_.size(); f += per_face_) {
-            const auto begin = faces_.begin() + static_cast<std::ptrdiff_t>(f);
-            const auto end = begin + static_cast<std::ptrdiff_t>(per_face_);
-            if (std::all_of(begin, end, in_set)) continue;
-            std::for_each(begin, end, [&](std::int64_t pair) { tip[static_cast<std::size_t>(pair)] = true; });
-        }
-        std::vector<std::int64_t> out;
-        for (std::size_t i = 0; i < node_b_.size(); ++i)
-            if (!tip[i] && in_set(static_cast<std::int64_t>(i))) out.push_back(static_cast<std::int64_t>(i));
-        return out;
-    }
-
-private:
-    // True if b's node of a pair fulfils something. a's node may be a point within a face; at a seam, where the
-    // order of the cells says which side is b, it counts too.
-    template <typename Predicate>
-    [[nodiscard]] bool either(std::int64_t pair, const Predicate& holds) const {
-        const auto at = static_cast<std::size_t>(pair);
-        return holds(origins_[static_cast<std::size_t>(node_b_[at])]) ||
-               (seam_ && holds(origins_[static_cast<std::size_t>(node_a_[at])]));
-    }
-
-    // The pairs of a seam at no face of a set. A face at the tip is none of the interface, but its pair adheres.
-    [[nodiscard]] std::vector<std::int64_t> beside(const std::vector<std::array<std::int64_t, 9>>& faces) const {
-        std::set<std::int64_t> nodes;
-        for (const auto& face : faces) nodes.insert(face.begin(), face.end());
-        std::vector<std::int64_t> out;
-        for (std::int64_t pair = 0; pair < static_cast<std::int64_t>(node_b_.size()); ++pair)
-            if (!either(pair, [&](std::int64_t node) { return nodes.contains(node); })) out.push_back(pair);
-        return out;
-    }
-
-    // Returns the area of a face by its corners.
-    [[nodiscard]] double area(std::size_t face) const {
-        std::vector<std::array<double, 3>> at;
-        for (std::size_t i = 0; i < corners(); ++i) {
-            const std::int64_t node =
-                origins_[static_cast<std::size_t>(node_b_[static_cast<std::size_t>(faces_[face + i])])];
-            std::array<double, 3> x{};
-            std::copy_n(mesh_.nodes.begin() + static_cast<std::ptrdiff_t>(node) * mesh_.dimension, dimension_,
-                        x.begin());
-            at.push_back(x);
-        }
-        const auto from_first = [&](std::size_t i) {
-            return std::array{at[i][0] - at[0][0], at[i][1] - at[0][1], at[i][2] - at[0][2]};
-        };
-        if (at.size() == 2) return std::hypot(from_first(1)[0], from_first(1)[1]);
-        double sum = 0;
-        for (std::size_t i = 2; i < at.size(); ++i) {
-            const auto u = from_first(i - 1), v = from_first(i);
-            sum += std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
-        }
-        return sum;
-    }
-
-    [[nodiscard]] std::size_t corners() const { return dimension_ == 2 ? 2 : per_face_ % 3 == 0 ? 3 : 4; }
-
-    // The pairs without a face in the set.
-    [[nodiscard]] std::vector<std::int64_t> outside(const std::string& name) const {
-        const auto faces = mesh_.face_sets.find(name);
-        if (seam_ && faces != mesh_.face_sets.end()) return beside(faces->second);
-        std::vector<bool> held(node_b_.size(), false);
-        for (const std::size_t f : faces_in(name))
-            for (std::size_t i = 0; i < per_face_; ++i) held[static_cast<std::size_t>(faces_[f + i])] = true;
-        std::vector<std::int64_t> out;
-        for (std::size_t i = 0; i < held.size(); ++i)
-            if (!held[i]) out.push_back(static_cast<std::int64_t>(i));
-        return out;
-    }
-
-    // Returns where the faces begin that lie in a set, which is one of faces or else one of nodes that hold all
-    // corners.
-    [[nodiscard]] std::vector<std::size_t> faces_in(const std::string& name) const {
-        const auto key_of = [](auto begin, auto end) {
-            std::set<std::int64_t> key(begin, end);  // a triangle among quadrilaterals repeats a corner
-            key.erase(-1);
-            return key;
-        };
-        std::set<std::set<std::int64_t>> known;
-        const auto faces = mesh_.face_sets.find(name);
-        if (faces != mesh_.face_sets.end())
-            for (const auto& face : faces->second) {
-                const auto all = static_cast<std::size_t>(std::find(face.begin(), face.end(), -1) - face.begin());
-                const std::size_t of_it = dimension_ == 2 ? 2 : all % 3 == 0 ? 3 : 4;
-                known.insert(key_of(face.begin(), face.begin() + static_cast<std::ptrdiff_t>(of_it)));
-            }
-        const std::vector<std::int64_t>& nodes = mesh_.node_sets.at(name);
-        std::vector<std::size_t> out;
-        for (std::size_t f = 0; f < faces_.size(); f += per_face_) {
-            std::vector<std::int64_t> at;
-            for (std::size_t i = 0; i < corners(); ++i)
-                at.push_back(origins_[static_cast<std::size_t>(node_b_[static_cast<std::size_t>(faces_[f + i])])]);
-            const auto among = [&](std::int64_t node) { return std::binary_search(nodes.begin(), nodes.end(), node); };
-            const auto first = faces_.begin() + static_cast<std::ptrdiff_t>(f);
-            const bool in_set = faces != mesh_.face_sets.end()
-                                    ? known.contains(key_of(at.begin(), at.end()))
-                                    : std::all_of(first, first + static_cast<std::ptrdiff_t>(corners()),
-                                                  [&](std::int64_t pair) { return either(pair, among); });
-            if (in_set) out.push_back(f);
-        }
-        return out;
-    }
-
-    std::size_t dimension_;
-    bool seam_;
-    const MeshData& mesh_;
-    std::size_t per_face_ = 1;
-    std::vector<std::int64_t> node_a_, node_b_;
-    std::vector<std::int64_t> faces_;
-    std::vector<std::int64_t> origins_;
-    std::vector<double> weights_;
-};
-
 }  // namespace
 
 void build_mesh(Model& model, const Scene& scene) {
@@ -451,7 +312,7 @@ void say_areas(Model& model, const Region& region, const InterfaceData& data, co
 }  // namespace
 
 void set_mesh_regions(Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data) {
-    const RegionPairs sets(model, scene, index, data);
+    const InterfacePairs sets(model, scene, index, data);
     for (const Region& region : data.regions) {
         std::int64_t count = 0;
         if (region.set.empty()) {

@@ -2,7 +2,7 @@
 // Nodes, cells and interfaces of the library's mesh, from layers or from a mesh file.
 #pragma once
 
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 
 namespace cli {
 

@@ -10,7 +10,7 @@
 
 #include "mesh/cell_shape.hpp"
 #include "mesh/near_bodies.hpp"
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 #include "scene/units/magnitudes.hpp"
 #include "text/say.hpp"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "model/model.hpp"
-#include "model/selection.hpp"
+#include "model/library/model.hpp"
+#include "model/library/selection.hpp"
 
 namespace cli {
 

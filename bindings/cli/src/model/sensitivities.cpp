@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "delam/experimental.h"
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 #include "scene/table/scene_keys.hpp"
 
 namespace cli {

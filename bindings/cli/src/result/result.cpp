@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/build_constraints.hpp"
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 #include "result/history/concept.hpp"
 
 namespace cli {

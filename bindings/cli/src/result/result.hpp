@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "file/hash.hpp"
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 #include "result/closing/closing.hpp"
 
 namespace cli {

@@ -140,8 +140,11 @@ void read_interfaces(const Table& root, Scene& scene) {
                        fmt::format("\"{}\" does not lie directly on \"{}\" (layers are listed from the bottom up)",
                                    scene.layers[interface.upper].name, scene.layers[interface.lower].name));
         interface.name = scene.layers[interface.lower].name + "-" + scene.layers[interface.upper].name;
+        for (const Table& part : table.tables("part"))
+            interface.parts.push_back(read_region(part, scene.geometry, false));
         for (const InterfaceData& other : scene.interfaces)
-            if (other.lower == interface.lower) table.fail("lower", "there is another interface between these layers");
+            if (other.lower == interface.lower && other.parts.empty() && interface.parts.empty())
+                table.fail("lower", "there is another interface between these layers (part gives each a part of it)");
         interface.bonded = table.flag("bonded");
         if (!interface.bonded) read_law_of(table, interface, scene);
         for (const Table& notch : table.tables("notch"))

@@ -103,6 +103,7 @@ struct InterfaceData {
     bool contact = false;  // alone, no adhesion
     std::size_t law = 0;
     std::optional<std::array<double, 3>> shear_axis;  // direction of the first tangent of its pairs
+    std::vector<Region> parts;  // the faces for which it stands, all that lie in one of them; empty: those of no other
     std::vector<Region> regions;
     Place place;
 

@@ -193,6 +193,9 @@ void read_mesh_interfaces(const Table& root, Scene& scene) {
         if (interface.shared_bonded && (all || interface.within() || is_pattern(interface.a + interface.b)))
             table.fail("shared", "\"bonded\" needs two bodies by name");
         if (table.has("cut")) interface.cut = read_cut(table, interface, scene);
+        if (table.has("part") && (all || interface.within() || is_pattern(interface.a + interface.b)))
+            table.fail("part", "needs two bodies by name");
+        for (const Table& part : table.tables("part")) interface.parts.push_back(read_region(part, scene, false));
         interface.bonded = table.flag("bonded");
         interface.contact = table.flag("contact");
         read_gaps(table, interface);

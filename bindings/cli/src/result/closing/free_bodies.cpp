@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 
 namespace cli {
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "mesh/cell_shape.hpp"
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 #include "scene/units/labels.hpp"
 
 namespace cli {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "model/build.hpp"
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 #include "scene/units/labels.hpp"
 #include "text/say.hpp"
 

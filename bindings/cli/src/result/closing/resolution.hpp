@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 #include "result/history/rows.hpp"
 
 namespace cli {

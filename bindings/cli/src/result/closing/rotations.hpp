@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 #include "result/fields/bulk_facts.hpp"
 
 namespace cli {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 
 namespace cli {
 

@@ -15,7 +15,7 @@
 #include "file/input_file.hpp"
 #include "file/own_files.hpp"
 #include "mesh/cell_format.hpp"
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 #include "result/fields/h5.hpp"
 #include "result/fields/step_file.hpp"
 #include "result/fields/step_rows.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 #include "result/fields/bulk_facts.hpp"
 #include "result/fields/bulk_fields.hpp"
 #include "result/fields/instants.hpp"

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "file/ranged_file.hpp"
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 
 namespace cli {
 

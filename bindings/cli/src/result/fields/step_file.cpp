@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "file/file.hpp"
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 #include "result/fields/h5.hpp"
 #include "result/fields/step_rows.hpp"
 

@@ -9,7 +9,7 @@
 
 #include <hdf5.h>
 
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 #include "result/fields/bulk_fields.hpp"
 
 namespace cli {

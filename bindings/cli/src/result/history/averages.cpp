@@ -5,7 +5,7 @@
 #include <array>
 
 #include "model/build_constraints.hpp"
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 
 namespace cli {
 

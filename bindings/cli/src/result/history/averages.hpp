@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 
 namespace cli {
 

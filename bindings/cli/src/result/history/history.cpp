@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 #include "model/sensitivities.hpp"
 #include "result/history/concept.hpp"
 #include "text/wording.hpp"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 #include "result/history/averages.hpp"
 
 namespace cli {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 #include "result/history/concept.hpp"
 #include "result/history/history.hpp"
 #include "scene/units/labels.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 
 namespace cli {
 

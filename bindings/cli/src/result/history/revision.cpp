@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 
 namespace cli {
 

@@ -227,6 +227,8 @@ KeyTable interface_table() {
                 "law of the rest"),
         text_key("cut").in_mesh().says(
             "with the same body as a and b: a set of faces within it, along which its nodes are doubled"),
+        tables_key("part", "part")
+            .says("the faces for which this entry stands, where others between the same two stand for the rest"),
         tables_key("notch", "notch").says("parts without adhesion from the start"),
         tables_key("adhesion", "adhesion").says("parts with an adhesion of their own"),
     };
@@ -272,9 +274,13 @@ KeyTable contact_table() {
 }  // namespace
 
 std::vector<KeyTable> interface_tables() {
-    return {
-        law_table(),   interface_table(), contact_table(), region_table("notch", false), region_table("adhesion", true),
-        solver_table()};
+    return {law_table(),
+            interface_table(),
+            contact_table(),
+            region_table("part", false),
+            region_table("notch", false),
+            region_table("adhesion", true),
+            solver_table()};
 }
 
 }  // namespace cli

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/model.hpp"
+#include "model/library/model.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 
 namespace cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/set_faces.hpp"
+#include "model/library/set_faces.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "mesh/cell_shape.hpp"
-#include "model/call.hpp"
+#include "model/library/call.hpp"
 
 namespace cli {
 

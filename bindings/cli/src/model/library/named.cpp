@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/named.hpp"
+#include "model/library/named.hpp"
 
 #include <algorithm>
 #include <regex>
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "model/selection.hpp"
+#include "model/library/selection.hpp"
 #include "scene/read_mesh.hpp"
 
 namespace cli {

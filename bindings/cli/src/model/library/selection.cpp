@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/selection.hpp"
+#include "model/library/selection.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "model/call.hpp"
-#include "model/set_faces.hpp"
+#include "model/library/call.hpp"
+#include "model/library/set_faces.hpp"
 
 namespace cli {
 

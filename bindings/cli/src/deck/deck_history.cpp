@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "deck/deck_points.hpp"
+#include "deck/deck_history.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -8,7 +8,7 @@ namespace cli::abaqus {
 
 namespace {
 
-// The first point at x or behind.
+// Returns the first point at x or behind.
 Points::const_iterator first_from(const Points& points, double x) {
     return std::partition_point(points.begin(), points.end(), [&](const auto& point) { return point.first < x; });
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "delam/delam.h"
-#include "model/set_faces.hpp"
+#include "model/library/set_faces.hpp"
 #include "scene/scene.hpp"
 
 namespace cli {
