@@ -126,7 +126,7 @@ code, scene, _ = delam("import", os.path.join(place, "slit.inp"))
 expect('a = "All"\nb = "All"\nlaw = "C"' in scene, "one body is a and b")
 for old, new, said in (('law = "C"', 'law = "C"\nprojected = true', "is for two bodies"),
                        ("[[interfaces]]", '[[interfaces]]\na = "All"\nb = "All"\nbonded = true\n\n[[interfaces]]',
-                        "another interface within this body")):
+                        "another interface between these bodies")):
     expect_error(delam("check", write(scene.replace(old, new, 1), "scene.toml", place)), 2, said)
 write(deck(Block(6, ny=0), ALL, cohesive=False), "slit.inp", place)
 whole = scene.split("notch =")[0] + scene.split("notch =")[1].split("\n", 1)[1]

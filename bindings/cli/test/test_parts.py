@@ -160,6 +160,13 @@ def deck(block, sections, gap=0.0):
             "*End step\n")
 
 
+# A seam within one body is an interface, too.
+for ny in (0, 2):
+    where = "in space" if ny else "in the plane"
+    body = deck(Blocks(ny=ny), ((range(2), 0.5), (range(3, 5), 0.2))).replace("elset=Up", "elset=Low").replace(
+        "*Solid section, elset=Low, material=M\n,\n", "", 1)
+    dissipates(f"a seam {where}", body, 0.5 * 1.25 + 0.2 * 1.5, "deck.inp")
+
 for ny in (0, 2):
     block = Blocks(ny=ny)
     where = "in space" if ny else "in the plane"

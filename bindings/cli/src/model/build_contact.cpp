@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "delam/experimental.h"
+#include "model/interface_parts.hpp"
 #include "model/library/call.hpp"
 
 namespace cli {
@@ -115,9 +116,10 @@ public:
             if (data.tolerance != first_->tolerance)
                 throw SceneFailure(data.place, fmt::format("tolerance is {}, that of {} {}: the seams share one",
                                                            data.tolerance, first_->place.path, first_->tolerance));
-            if (data.cut.empty() && !others_.emplace(data.a, &data).second)
-                throw SceneFailure(data.place, "there is another interface within this body");
-            if (data.cut.empty()) continue;
+            if (data.cut.empty()) {
+                others_[data.a].push_back(&data);
+                continue;
+            }
             std::set<std::int64_t> nodes;
             for (const auto& face : scene.mesh->face_sets.at(data.cut))
                 nodes.insert(nodes_of(face).begin(), nodes_of(face).end());
@@ -128,9 +130,9 @@ public:
     // Returns nullptr if no interface is within a body.
     [[nodiscard]] const InterfaceData* first() const { return first_; }
 
-    // Returns the entry of a seam through these nodes of the file: the cut on which all of them lie, else that of the
-    // body's other seams, else nullptr.
-    [[nodiscard]] const InterfaceData* of(const std::string& body, const std::vector<std::int64_t>& seam) const {
+    // Returns the entries of a seam through these nodes of the file: the cut on which all of them lie, else those of
+    // the body's other seams.
+    [[nodiscard]] InterfaceEntries of(const std::string& body, const std::vector<std::int64_t>& seam) const {
         const InterfaceData* partly = nullptr;
         for (const auto& [data, nodes] : cuts_) {
             const auto on = std::count_if(seam.begin(), seam.end(),
@@ -141,7 +143,7 @@ public:
                                    fmt::format("cut = \"{}\": faces of this set lie within body \"{}\", and "
                                                "a and b are \"{}\"",
                                                data->cut, body, data->a));
-            if (whole) return data;
+            if (whole) return {data};
             if (on > 0 && data->a == body) partly = data;
         }
         if (partly != nullptr)
@@ -149,21 +151,26 @@ public:
                                                           "faces is needed for the whole seam",
                                                           partly->cut));
         const auto found = others_.find(body);
-        return found != others_.end() ? found->second : nullptr;
+        return found != others_.end() ? found->second : InterfaceEntries{};
     }
 
-    void require_used(const std::set<const InterfaceData*>& used) const {
-        for (const auto& [name, entry] : others_)
-            if (!used.contains(entry))
-                throw SceneFailure(entry->place,
+    void require_used(const InterfaceEntries& used) const {
+        const auto is_used = [&](const InterfaceData* entry) {
+            return std::find(used.begin(), used.end(), entry) != used.end();
+        };
+        for (const auto& [name, entries] : others_) {
+            if (std::none_of(entries.begin(), entries.end(), is_used))
+                throw SceneFailure(entries.front()->place,
                                    fmt::format("\"{}\" is a and b, and this body has no {}seam: none of its outer "
                                                "faces lie on each other with nodes of their own",
                                                name, cuts_.empty() ? "" : "other "));
+            require_pairs(entries, used);
+        }
     }
 
 private:
     const InterfaceData* first_ = nullptr;
-    std::map<std::string, const InterfaceData*> others_;                         // by body
+    std::map<std::string, InterfaceEntries> others_;                             // by body
     std::vector<std::pair<const InterfaceData*, std::set<std::int64_t>>> cuts_;  // with the nodes of their faces
 };
 
@@ -252,13 +259,13 @@ void add_seams(Model& model, const Scene& scene) {
     if (first == nullptr) return;
     std::int64_t count = 0;
     call(model.context.get(), delam_mesh_add_seams(model.mesh.get(), first->tolerance, &count), first->place);
-    std::set<const InterfaceData*> used;
+    std::vector<InterfaceParts> seams;
     std::set<std::size_t> without;
     for (; count > 0; --count) {
         const std::size_t body = next_body(model, first->place);
         const std::string& name = scene.layers[body].name;
-        const InterfaceData* entry = entries.of(name, next_nodes(model, first->place));
-        if (entry == nullptr && without.insert(body).second && !scene.general_contact)
+        InterfaceEntries own = entries.of(name, next_nodes(model, first->place));
+        if (own.empty() && without.insert(body).second && !scene.general_contact)
             model.said.push_back(
                 fmt::format("body \"{}\" has a seam and no entry for it: its sides are in contact; a = "
                             "\"{}\", b = \"{}\" with a law makes them adhere",
@@ -266,8 +273,16 @@ void add_seams(Model& model, const Scene& scene) {
         InterfaceData contact;
         contact.contact = true;
         contact.place = first->place;
-        push_interface(model, scene, entry != nullptr ? *entry : contact, body, body);
-        used.insert(entry);
+        if (own.empty())
+            push_interface(model, scene, contact, body, body);
+        else
+            seams.emplace_back(model, scene, std::move(own), body, body);
+    }
+    InterfaceEntries used;
+    for (InterfaceParts& seam : seams) {
+        const InterfaceEntries own = seam.with_pairs();
+        used.insert(used.end(), own.begin(), own.end());
+        seam.split(model, scene);
     }
     entries.require_used(used);
 }

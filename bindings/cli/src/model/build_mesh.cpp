@@ -101,6 +101,13 @@ InterfaceEntries entries_from(const Scene& scene, std::size_t i,
     return entries;
 }
 
+// Adds the last interface of the mesh to the model, in the parts of its entries.
+void add_parts(Model& model, const Scene& scene, const InterfaceEntries& entries, std::size_t a, std::size_t b) {
+    InterfaceParts parts(model, scene, entries, a, b);
+    require_pairs(entries, parts.with_pairs());
+    parts.split(model, scene);
+}
+
 void build_layers(Model& model, const Scene& scene) {
     std::vector<double> thickness;
     std::vector<std::int64_t> divisions;
@@ -126,7 +133,7 @@ void build_layers(Model& model, const Scene& scene) {
              delam_mesh_add_interface(handle, static_cast<std::int32_t>(data.lower),
                                       static_cast<std::int32_t>(data.upper), 0.0, &index),
              data.place);
-        push_parts(model, scene, entries, data.lower, data.upper);
+        add_parts(model, scene, entries, data.lower, data.upper);
     }
 }
 
@@ -184,7 +191,7 @@ void add_named_interfaces(Model& model, const Scene& scene) {
              : data.projected ? delam_mesh_add_mortar_interface(model.mesh.get(), label_a, label_b, data.gap, &index)
                               : delam_mesh_add_interface(model.mesh.get(), label_a, label_b, data.tolerance, &index),
              data.place);
-        push_parts(model, scene, entries, a, b);
+        add_parts(model, scene, entries, a, b);
         if (data.shared_bonded) bond_shared(model, scene, index);
     }
 }

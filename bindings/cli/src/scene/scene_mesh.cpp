@@ -190,11 +190,13 @@ void read_mesh_interfaces(const Table& root, Scene& scene) {
         }
         interface.tolerance = table.number("tolerance", 0.0);
         interface.shared_bonded = table.text("shared", "law") == "bonded";
-        if (interface.shared_bonded && (all || interface.within() || is_pattern(interface.a + interface.b)))
+        if (interface.shared_bonded && (all || is_pattern(interface.a + interface.b)))
             table.fail("shared", "\"bonded\" needs two bodies by name");
         if (table.has("cut")) interface.cut = read_cut(table, interface, scene);
         if (table.has("part") && (all || interface.within() || is_pattern(interface.a + interface.b)))
-            table.fail("part", "needs two bodies by name");
+            table.fail("part", "needs two bodies by name, or one body as a and b");
+        if (table.has("part") && table.has("cut"))
+            table.fail("part", "is not for cut: cut each set of faces by an entry of its own");
         for (const Table& part : table.tables("part")) interface.parts.push_back(read_region(part, scene, false));
         interface.bonded = table.flag("bonded");
         interface.contact = table.flag("contact");
