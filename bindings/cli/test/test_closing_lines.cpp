@@ -186,6 +186,14 @@ void jumps() {
     all.front().loads = {0.0016, 0.5};
     expect(cli::jump_lines(all, plane, 100).front().find("(load_a 1.6 mm, load_b 0.5): ") != std::string::npos,
            "a factor that is the displacement has its unit");
+    all.front().before = 0.05;
+    all.front().loads_before = {0.0015, 0.499};
+    expect(cli::jump_lines(all, plane, 100)
+               .front()
+               .starts_with("jump between time 0.05 and 0.1 (load_a 1.5 mm to 1.6 mm, load_b 0.5): "),
+           "a jump that goes on while the load rises");
+    all.front().loads_before = {0.001599, 0.5};
+    expect(cli::jump_lines(all, plane, 100).front().starts_with("jump at time 0.1 "), "a jump at one load");
     plane.units = {};
     expect(cli::jump_lines(all, plane, 100).front().find("(load_a 0.0016, load_b 0.5): ") != std::string::npos,
            "a scene without units has none for its loads");

@@ -38,12 +38,30 @@ std::string csv_cell(const std::string& text) {
     return out + "\"";
 }
 
-// " (load 1.6 mm)"; with several patterns " (load_press 1.6 mm, load_side 2)".
-std::string loads_text(const Jump& jump, const Scene& scene) {
-    std::string out;
-    for (std::size_t p = 0; p < jump.loads.size(); ++p)
-        out += fmt::format("{}{} {}", p == 0 ? " (" : ", ", load_title(scene, p), load_text(jump.loads[p], scene, p));
-    return out.empty() ? out : out + ")";
+// Jumps are located to this part of their load, unless steps are fixed or the load hardly rises while they go on.
+constexpr double located = 3e-3;
+
+bool spread(const Jump& jump, std::size_t pattern) {
+    const double before = jump.loads_before[pattern], after = jump.loads[pattern];
+    return std::abs(after - before) > located * std::max(std::abs(before), std::abs(after));
+}
+
+// "at time 0.5 (load 1.6 mm)" or "between time 0.4 and 0.5 (load 1.5 mm to 1.6 mm)"; with several patterns "(load_press
+// 1.6 mm, load_side 2)".
+std::string instant_text(const Jump& jump, const Scene& scene) {
+    bool over_time = false;
+    std::string loads;
+    for (std::size_t p = 0; p < jump.loads.size(); ++p) {
+        loads += fmt::format("{}{} ", p == 0 ? " (" : ", ", load_title(scene, p));
+        if (p < jump.loads_before.size() && spread(jump, p)) {
+            over_time = true;
+            loads += load_text(jump.loads_before[p], scene, p) + " to ";
+        }
+        loads += load_text(jump.loads[p], scene, p);
+    }
+    if (!loads.empty()) loads += ")";
+    return over_time ? fmt::format("between time {:.6g} and {:.6g}{}", jump.before, jump.time, loads)
+                     : fmt::format("at time {:.6g}{}", jump.time, loads);
 }
 
 constexpr double worth_telling = 0.02;  // relative change of a reaction
@@ -71,8 +89,10 @@ std::vector<Jump> jumps_of(const Model& model, const delam_solver* solver, const
              delam_solver_jump(solver, i, &jump.step, &jump.before, &jump.time, &jump.stored, &jump.dissipated,
                                &jump.released, &jump.debonded, &jump.interface, &jump.first, &jump.last),
              fmt::format("jump {}", i));
-        for (const PatternData& pattern : scene.patterns)
-            jump.loads.push_back(factor_at(pattern, jump.time) + 0.0);  // turns -0 into 0
+        for (const PatternData& pattern : scene.patterns) {
+            jump.loads_before.push_back(factor_at(pattern, jump.before) + 0.0);  // turns -0 into 0
+            jump.loads.push_back(factor_at(pattern, jump.time) + 0.0);
+        }
         const std::size_t patterns = pattern_count(model);
         jump.reaction_before.resize(patterns);
         jump.reaction_after.resize(patterns);
@@ -133,7 +153,7 @@ std::vector<std::string> jump_lines(const std::vector<Jump>& jumps, const Scene&
         const std::string grown = jump.first < 0 ? "no interface changed"
                                                  : fmt::format("interface \"{}\" debonded by {}", jump.name,
                                                                extent_text(jump.debonded, scene));
-        out.push_back(fmt::format("jump at time {:.6g}{}: {}, {} released{}", jump.time, loads_text(jump, scene), grown,
+        out.push_back(fmt::format("jump {}: {}, {} released{}", instant_text(jump, scene), grown,
                                   energy_text(jump.released, scene, work), reactions_text(jump, scene)));
     }
     if (shown.size() < jumps.size())

@@ -14,7 +14,8 @@ struct Jump {
     std::int64_t step = 0;
     double before = 0;
     double time = 0;
-    std::vector<double> loads;  // factor of each pattern at `time`
+    std::vector<double> loads_before;  // factor of each pattern at `before`
+    std::vector<double> loads;         // and at `time`
     std::vector<double> reaction_before, reaction_after;
     double stored = 0;
     double dissipated = 0;
