@@ -6,7 +6,7 @@ Scenes on several numbers of ranks, each compared with the program of one proces
 reactions, energies, debonded length, contact and the fields of all steps (comparison.py). Without NAME: those of
 small_scenes.quick().
 
---brief   fewer scenes, each on 1 and 2 ranks, or on 1 and 4
+--brief   fewer scenes, each on 2 ranks, or on 4
 --part    each N-th of the scenes, from the I-th on
 --loose   with the scenes' own damage_tolerance instead of a small one
 --repeat  only: with it, two runs on the same ranks differ by no more than the manual of the command line says
@@ -84,7 +84,7 @@ def main():
         allowed = max(ALLOWED[kind], ROUNDED.get(name, 0.0))
         serial = solve(name, scene, words, 0)
         first = None
-        counts = "1,4" if name in small_scenes.ON_FOUR else "1,2"
+        counts = "4" if name in small_scenes.ON_FOUR else "2"
         solves = 0
         for ranks in map(int, (counts if options.brief else options.ranks).split(",")):
             if solves > MOST_SOLVES.get(ranks, solves):

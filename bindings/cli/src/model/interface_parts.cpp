@@ -2,6 +2,7 @@
 #include "model/interface_parts.hpp"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -89,7 +90,7 @@ InterfaceParts::InterfaceParts(Model& model, const Scene& scene, InterfaceEntrie
     }
     require_one_pairing(entries_);
     owner_ = owners(InterfacePairs(model, scene, index_, *entries_.front()), entries_, rest_, !scene.mesh);
-    push(model, scene, *owner_.back());
+    push(model, scene, *with_pairs().front());
 }
 
 InterfaceEntries InterfaceParts::with_pairs() const {
@@ -109,8 +110,8 @@ void InterfaceParts::push(Model& model, const Scene& scene, const InterfaceData&
 void InterfaceParts::split(Model& model, const Scene& scene) {
     if (owner_.empty()) return;
     InterfaceEntries left = owner_;  // of the pairs of the first interface, which keep their order
-    for (const InterfaceData* entry : with_pairs()) {
-        if (entry == owner_.back()) continue;
+    const InterfaceEntries entries = with_pairs();
+    for (const InterfaceData* entry : std::span(entries).subspan(1)) {
         std::vector<std::int64_t> own;
         for (std::size_t p = 0; p < left.size(); ++p)
             if (left[p] == entry) own.push_back(static_cast<std::int64_t>(p));

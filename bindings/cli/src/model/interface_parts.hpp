@@ -17,11 +17,11 @@ using InterfaceEntries = std::vector<const InterfaceData*>;
 // pair, and one without a part has the rest.
 class InterfaceParts {
 public:
-    // Appends the next interface of the mesh to the model, as that of one of the entries. Throws SceneFailure where a
-    // pair has no entry, or where entries contradict.
+    // Appends the next interface of the mesh to the model, as that of the first entry with pairs. Throws SceneFailure
+    // where a pair has no entry, or where entries contradict.
     InterfaceParts(Model& model, const Scene& scene, InterfaceEntries entries, std::size_t a, std::size_t b);
-    // Splits off the pairs of the other entries: interfaces that the mesh and the model get at their ends, which
-    // are equally far.
+    // Splits off the pairs of the other entries. The mesh appends their interfaces, and so must the model: it has to
+    // know all interfaces of the mesh.
     void split(Model& model, const Scene& scene);
     // Returns the entries that have pairs.
     [[nodiscard]] InterfaceEntries with_pairs() const;
