@@ -46,10 +46,10 @@ if ! command -v clang++ >/dev/null || ! printf '%s' "$probe" |
 fi
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
-flags="-O1 -g -D_GLIBCXX_ASSERTIONS -fsanitize-ignorelist=$here/third_party.txt"
+flags="-O1 -g1 -D_GLIBCXX_ASSERTIONS -fsanitize-ignorelist=$here/third_party.txt"
 cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None \
     -DCMAKE_C_FLAGS="-O1 -g" -DCMAKE_CXX_FLAGS="$flags" -DDELAM_SANITIZE=fuzzer-no-link,$sanitizers \
-    -DDELAM_FUZZ=ON -DDELAM_BUILD_EXAMPLES=OFF >/dev/null
+    -DDELAM_FUZZ=ON -DDELAM_UNITY=ON -DDELAM_BUILD_EXAMPLES=OFF >/dev/null
 cmake --build "$folder" --target "${targets[@]/#/fuzz_}" -- -k 0
 /usr/bin/python3 "$here/scene_dictionary.py" "$root/bindings/cli/SCENE.md" >"$folder/scene.dictionary"
 

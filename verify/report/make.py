@@ -31,6 +31,7 @@ import child  # noqa: E402
 import judge  # noqa: E402
 import resume  # noqa: E402
 import schema  # noqa: E402
+import words  # noqa: E402
 from whole import write_json  # noqa: E402
 
 
@@ -383,7 +384,7 @@ def report(a, cases: list[case_module.Case], library: dict) -> int:
         elif a.only and path.is_file():
             everything.append(read_case(path, c, library, command, a.quick))
         else:
-            why = "not part of --quick" if a.quick and not c.quick else "left out by --only"
+            why = "not part of --quick" if a.quick and not c.quick else words.LEFT_OUT
             everything.append(ended(c, library, f"bash verify/run.sh --report --only {c.id}", "skipped", why))
     if a.accept:
         for data in everything:

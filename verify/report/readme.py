@@ -3,7 +3,8 @@
 """readme.py OUT: writes headline figures and pictures of a report into RESULTS.md, and a summary into the top README, between
 their markers.
 
-    readme.py OUT        from OUT/report.json: headline.json, pictures/, the blocks in RESULTS.md, the summary in the top README
+    readme.py OUT        from OUT/report.json: headline.json, pictures/, the blocks in RESULTS.md, the summary in the top README;
+                         from a report that --only made, the table of speed and the sentences alone
     readme.py --check    exit status 1 if a block, the table of speed, a sentence or the summary is missing, or differs from
                          what headline.json gives"""
 from __future__ import annotations
@@ -21,7 +22,7 @@ PAGE, TOP = HERE / "RESULTS.md", ROOT / "README.md"
 PAGE_FOLDER = "verify/report/"
 sys.path.insert(0, str(HERE))
 
-from words import show  # noqa: E402
+from words import LEFT_OUT, show  # noqa: E402
 
 BEGIN, END = "<!-- report:begin (verify/report/readme.py) -->", "<!-- report:end -->"
 SUMMARY_BEGIN, SUMMARY_END = "<!-- summary:begin (verify/report/readme.py) -->", "<!-- summary:end -->"
@@ -62,6 +63,11 @@ def when(report: dict, cases: list[dict]) -> str:
 def whole(report: dict) -> str:
     """The command that makes all of the cases; that of the report may have renewed some of them, or their pasts."""
     return report["command"].split(" --only")[0].removesuffix(" --accept")
+
+
+def of_some_cases(report: dict) -> bool:
+    """True if --only has left out cases that no report before it had made there."""
+    return any(c["status"] == "skipped" and c["reason"] == LEFT_OUT for c in report["cases"])
 
 
 def gather(report: dict, figures=None, pictures=None) -> dict:
@@ -244,8 +250,9 @@ def main(argv: list[str]) -> int:
         return 1 if wrong else 0
     report = json.loads((a.out / "report.json").read_text(encoding="utf-8"))
     try:
-        head, old = gather(report), between(text)
         before = json.loads((HERE / "headline.json").read_text(encoding="utf-8"))
+        partial = of_some_cases(report)
+        head, old = dict(before) if partial else gather(report), between(text)
         # A report without all of the timing cases leaves the table of the last one that had them, with its date.
         timed = speed(report) or before.get("speed")
         if timed:
@@ -257,7 +264,8 @@ def main(argv: list[str]) -> int:
         head["sentences"] = {**before.get("sentences", {}), **sentences(report)}
         for name, told in head["sentences"].items():
             text = text.replace(between(text, *sentence_marks(name)), sentence_block(name, told))
-        top = top.replace(between(top, SUMMARY_BEGIN, SUMMARY_END), summary_block(head))
+        if not partial:
+            top = top.replace(between(top, SUMMARY_BEGIN, SUMMARY_END), summary_block(head))
     except Refused as error:
         print(f"readme.py: {error}", file=sys.stderr)
         return 1
@@ -268,7 +276,7 @@ def main(argv: list[str]) -> int:
 
     (HERE / "pictures").mkdir(exist_ok=True)
     cases = {c["id"]: c for c in report["cases"]}
-    for p in head["pictures"]:
+    for p in [] if partial else head["pictures"]:
         (ROOT / p["file"]).write_text(plots.svg(cases[p["case"]]["plots"][p["plot"]], plots.WIDE) + "\n", encoding="utf-8")
     (HERE / "headline.json").write_text(json.dumps(head, indent=1) + "\n", encoding="utf-8")
     a.page.write_text(text.replace(old, block(head)), encoding="utf-8")

@@ -2,6 +2,9 @@
 """Numbers as people read them; the same in the pages and in the README."""
 import math
 
+# The reason of a case that a report has not run.
+LEFT_OUT = "left out by --only"
+
 # Where a case has no energy ledger and no word of its own about it: why.
 NO_LEDGER = {
     "a": "None: states are compared one by one, at the adhesion that an analysis had; what each of them stores is a column "

@@ -6,6 +6,7 @@ import unittest
 import planted
 import readme
 import schema  # noqa: F401  (the path)
+import words
 
 
 def report():
@@ -104,6 +105,14 @@ class Readme(unittest.TestCase):
         failed = self.timed()
         failed["cases"][0]["status"] = "failed"
         self.assertIsNone(readme.speed(failed))
+
+    def test_a_report_of_some_cases_leaves_the_block(self):
+        self.assertFalse(readme.of_some_cases(report()))
+        some = report()
+        some["cases"].append({"status": "skipped", "reason": words.LEFT_OUT})
+        self.assertTrue(readme.of_some_cases(some))
+        some["cases"][-1]["reason"] = "GetFEM is not installed"
+        self.assertFalse(readme.of_some_cases(some))
 
     def test_a_changed_speed_is_seen(self):
         head = {**self.head(), "speed": readme.speed(self.timed())}
