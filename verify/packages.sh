@@ -36,11 +36,11 @@ DELAM_SITE_PACKAGES=(python3-sphinx python3-myst-parser python3-breathe furo lib
 declare -A DELAM_SLICE_PACKAGES=(
     [2]="${DELAM_SITE_PACKAGES[*]} valgrind chromium paraview python3-paraview python3-getfem"
     [3]="valgrind dpkg-dev file"
-    [9]="libclang-rt-dev"
     [10]="valgrind"
     [12]="valgrind"
     [13]="valgrind"
     [14]="valgrind"
+    [17]="libclang-rt-dev"
 )
 
 # delam_install PACKAGE...: installs what is missing, as root or through sudo; else prints the command and fails.

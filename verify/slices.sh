@@ -3,7 +3,7 @@
 # To be sourced by verify/run.sh: the long tier, cut into slices of at most ten minutes on two idle cores, of which each
 # run of .ci/run takes one.
 
-slices=16
+slices=17
 # Tests of ctest, as a regular expression; each test with the label `long` is in one slice (the test style/slices).
 declare -A slice_tests=(
     [1]='^(cli_long_(studies|many|intervals)|(unit|case)/test_long_.*|case/whole_.*)$'
@@ -14,13 +14,14 @@ declare -A slice_tests=(
     [6]='^ranks/long_loose.*$'
     [7]='^ranks/long_scenes_whole.*$'
     [8]='^(abi/long_.*)$'
-    [9]='^(fuzz/.*|(contact|mesh_error|load_path)/long_.*)$'
+    [9]='^(contact|mesh_error|load_path)/long_.*$'
     [10]='^fault/(long|cancel|memory).*$'
     [12]='^valgrind/unit_test_[a-h].*$'
     [13]='^valgrind/unit_test_[i-l].*$'
     [14]='^valgrind/(unit_test_[m-z]|case_).*$'
     [15]='^constants/.*$'
     [16]='^features/.*$'
+    [17]='^fuzz/.*$'
 )
 # Stages of verify/stages.sh, with their arguments, separated by semicolons.
 declare -A slice_stages=(
