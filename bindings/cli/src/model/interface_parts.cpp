@@ -44,7 +44,8 @@ const InterfaceData* entry_of_rest(const InterfaceEntries& entries) {
 }
 
 // Returns the entry of each pair; rest: of those that lie in no part.
-InterfaceEntries owners(const InterfacePairs& pairs, const InterfaceEntries& entries, const InterfaceData* rest) {
+InterfaceEntries owners(const Scene& scene, const InterfacePairs& pairs, const InterfaceEntries& entries,
+                        const InterfaceData* rest) {
     InterfaceEntries owner(static_cast<std::size_t>(pairs.count()), nullptr);
     for (const InterfaceData* entry : entries)
         for (const Region& part : entry->parts)
@@ -79,7 +80,7 @@ void push_parts(Model& model, const Scene& scene, const InterfaceEntries& entrie
     if (entries.size() == 1 && entries.front()->parts.empty()) return push_interface(model, scene, *entries[0], a, b);
     require_one_pairing(entries);
     const InterfaceData* rest = entry_of_rest(entries);
-    InterfaceEntries owner = owners(InterfacePairs(model, scene, index, *entries.front()), entries, rest);
+    InterfaceEntries owner = owners(scene, InterfacePairs(model, scene, index, *entries.front()), entries, rest);
     const InterfaceData* stays = owner.back();
     const auto named = [&](const InterfaceData& entry) {
         push_interface(model, scene, entry, a, b);
