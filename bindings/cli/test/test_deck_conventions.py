@@ -8,7 +8,7 @@ import re
 from bar_deck import (ACROSS, CFRP, GLUE, HEIGHT, HELD, LENGTH, PULL, STEP, STIFFNESS, STRENGTH, SURFACES, THICKNESS, TOUGHNESS,
                       YOUNG, bar, dissipated, pulled, stress)
 from deck_runs import close, history, refused
-from support import delam, expect, expect_error, finish, folder, write
+from support import delam, draw, expect, expect_error, finish, folder, write
 
 
 def check_ways_to_write():
@@ -287,7 +287,7 @@ RF2, U2
 
 
 def check_cae():
-    """Runs as it is, to a page for a browser, and grows as beam theory says: Gc = 3 P w/(2 b a) with the length of C."""
+    """Runs as it is, to pictures and a page for a browser, and grows as beam theory says: Gc = 3 P w/(2 b a) with the length of C."""
     rows, said, out = history(cae(), name="dcb.inp")
     if not rows:
         return
@@ -300,6 +300,9 @@ def check_cae():
     expect(30.0 < length < 45.0, f"the crack grows from 20 to {length:.1f}")
     close("energy release rate by beam theory", 3.0 * force * opening / (2.0 * length), TOUGHNESS, 0.01)
     close("energy release rate", last["energy_release_rate"], TOUGHNESS, 0.01)
+    code, error = draw("plot", out)
+    for picture in ("load-displacement.png", "snapshots.png"):
+        expect(code == 0 and os.path.getsize(os.path.join(out, picture)) > 5000, f"{picture}: {error.strip()[-300:]}")
     code, _, error = delam("view", out)
     expect(code == 0 and os.path.exists(os.path.join(out, "view.html")), f"view: {error.strip()[:200]}")
 

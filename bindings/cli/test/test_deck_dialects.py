@@ -63,8 +63,11 @@ def check_two_sections():
               "".join(f"*COHESIVE SECTION, ELSET={n}, MATERIAL=GLUE, RESPONSE=TRACTION SEPARATION\n,2.\n" for n in "GH"))
     text = bar(glue=False).replace("*SOLID SECTION", halves + "*SOLID SECTION", 1)
     pulled("two alike", text)
-    scene, said = imported(text.replace("\n,2.\n*SOLID", "\n2.,2.\n*SOLID", 1))
-    expect(scene.count("part = [") == 2 and "2 laws between them" in said, "two thicknesses are two laws, each in its part")
+    # Of two thicknesses, each has a part of the interface.
+    scene, _ = imported(text.replace("\n,2.\n*SOLID", "\n2.,2.\n*SOLID", 1))
+    stiffnesses = sorted(float(value) for value in re.findall(r"\nnormal_stiffness = (\S+)", scene))
+    expect(stiffnesses == [STIFFNESS / 2, STIFFNESS] and all(f'part = [{{ set = "{name}" }}]' in scene for name in "GH"),
+           f"two laws: {stiffnesses}, {scene.count('part = ')} parts")
     # A third block on top, with a layer of another thickness between: two springs of the glue in series.
     third = ("*NODE\n" + "".join(f"{201 + i}, {i:.1f}, 2.\n{204 + i}, {i:.1f}, 3.\n" for i in range(3)) +
              "*ELEMENT, TYPE=CPS4, ELSET=C\n31, 201, 202, 205, 204\n32, 202, 203, 206, 205\n"

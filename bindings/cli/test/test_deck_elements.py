@@ -142,7 +142,32 @@ def check_all_refusals():
             r"\*SURFACE: analytical rigid surfaces stay out")
 
 
+def check_values():
+    """Values that stay out are said together: of cards that do not follow from each other, of the mesh, of materials and loads."""
+    text = deck(extra="*Equation\n2\n6, 2, 1.\n", held="Bottom, 2\n1, 1\nTop, 9\n", after="*Cload\n109, 2, ten\n*Dload\nUp, GRAV, 9.8\n")
+    text = text.replace("\n5, 4.0, 0.0\n", "\n5, four, 0.0\n")
+    code, _, error = delam("import", write(text, "deck.inp"))
+    lines = error.strip().splitlines()
+    wanted = ("*NODE: ", "*EQUATION: ", "*BOUNDARY: ", "*CLOAD: ", "*DLOAD: ")
+    expect(code == 2 and len(lines) == len(wanted) and all(card in line for card, line in zip(wanted, lines)), f"of cards: {error}")
+    numbers = [int(line.split("deck.inp:")[1].split(":")[0]) for line in lines]
+    expect(numbers == sorted(numbers), f"in the order of the lines: {numbers}")
+    # What is judged where a card is used: two materials and two places of loads.
+    text = deck(elastic="*Elastic, type=LAMINA\n1000., 500., 0.3, 400., 400., 100.\n", loads="Tip, 2, 2, 0.03\nTips, 2, 2, 0.01\n",
+                extra="*Material, name=N\n*Elastic, type=ORTHOTROPIC\n1., 2., 1., 0., 0., 1., 1., 1.\n1.\n")
+    text = text.replace("*Solid section, elset=Up, material=M", "*Solid section, elset=Up, material=N")
+    code, _, error = delam("import", write(text, "deck.inp"))
+    said = ("make nu23 = ", "are not positive definite", '"Tip"', '"Tips"')
+    expect(code == 2 and len(error.strip().splitlines()) == len(said) and all(words in error for words in said), f"where used: {error}")
+    # Two faults of one material that a body has, and those of a card on which others hang alone.
+    text = deck(elastic="*Elastic\n1000.\n*Expansion\n1., 2., 3., 4.\n")
+    refused(text, r"\*ELASTIC: 1 numbers: 2 constants", r"\*EXPANSION: 4 numbers")
+    code, _, error = delam("import", write(deck(static="*Static\n-1., 1.\n"), "deck.inp"))
+    expect(code == 2 and len(error.strip().splitlines()) == 1 and "*STATIC: " in error, f"a step alone: {error}")
+
+
 check_elements_of_decks()
 check_elements_of_meshes()
+check_values()
 check_all_refusals()
 finish()

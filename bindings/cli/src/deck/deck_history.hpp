@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -61,6 +62,24 @@ struct History {
             if (std::abs(value) > std::abs(out)) out = value;
         return out;
     }
+};
+
+// Tells histories apart: lines of the deck with one key go on with one.
+struct HistoryKey {
+    std::string place;
+    int dof;
+    std::string distributed;
+    int part = 0;  // a support that has ended and begins again is another one
+    bool operator<(const HistoryKey& other) const {
+        return std::tie(place, dof, distributed, part) <
+               std::tie(other.place, other.dof, other.distributed, other.part);
+    }
+};
+
+// Made of points whose largest is 1, which the factor multiplies by `peak`.
+struct Pattern {
+    std::string name;
+    double peak;
 };
 
 }  // namespace cli::abaqus

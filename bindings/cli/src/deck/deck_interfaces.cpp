@@ -16,6 +16,7 @@
 #include "deck/deck_laws.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesh/near_bodies.hpp"
+#include "text/refusals.hpp"
 #include "text/toml_text.hpp"
 
 namespace cli::abaqus {
@@ -51,9 +52,12 @@ public:
     }
 
     std::string text() {
-        for (const CohesiveSet& set : mesh_.cohesive) add_cohesive(set);
-        for (const ContactPair& pair : deck_.pairs) add_pair(pair);
-        for (const Tie& tie : model_.ties) add_tie(tie);
+        RefusalList refused;
+        for (const CohesiveSet& set : mesh_.cohesive) refused.attempt([&] { add_cohesive(set); });
+        for (const ContactPair& pair : deck_.pairs) refused.attempt([&] { add_pair(pair); });
+        refused.require_none();
+        for (const Tie& tie : model_.ties) refused.attempt([&] { add_tie(tie); });
+        refused.require_none();
         if (!deck_.adhering.empty()) add_everywhere();
         for (const auto& [key, pair] : touching_) bond_shared(pair);
         std::string out = laws_.text();

@@ -17,6 +17,7 @@
 #include "deck/deck_instants.hpp"
 #include "deck/deck_temperatures.hpp"
 #include "deck/deck_transforms.hpp"
+#include "text/refusals.hpp"
 #include "text/toml_text.hpp"
 
 namespace cli::abaqus {
@@ -25,12 +26,6 @@ namespace {
 
 constexpr std::int64_t most_single_nodes = 200;
 constexpr std::size_t most_points = 10000000;  // of all histories: each line may follow a long amplitude
-
-// Made of points whose largest is 1, which the factor multiplies by `peak`.
-struct Pattern {
-    std::string name;
-    double peak;
-};
 
 class Loads {
 public:
@@ -44,8 +39,11 @@ public:
 
     std::string text() {
         for (const LoadLine& line : deck_.held)
-            for (int dof = line.first; dof <= line.last; ++dof) at_one(line, false, dof);
+            refused_.attempt([&] {
+                for (int dof = line.first; dof <= line.last; ++dof) at_one(line, false, dof);
+            });
         for (const Step& step : deck_.steps) add_step(step);
+        refused_.require_none();
         for (auto& [key, history] : histories_) history.hold_until(time_);
         for (auto& [body, history] : heated_) history.hold_until(time_);
         say_width();
@@ -104,17 +102,6 @@ public:
     }
 
 private:
-    struct Key {
-        std::string place;
-        int dof;
-        std::string distributed;
-        int part = 0;  // a support that has ended and begins again is another one
-        bool operator<(const Key& other) const {
-            return std::tie(place, dof, distributed, part) <
-                   std::tie(other.place, other.dof, other.distributed, other.part);
-        }
-    };
-
     // Displacements, forces, and distributed forces: what OP=NEW ends.
     static std::size_t kind_of(const History& history) {
         return !history.force ? 0 : history.line.distributed.empty() ? 1 : 2;
@@ -136,7 +123,7 @@ private:
             say_once(deck_.left_out, text);
             return nullptr;
         }
-        Key key{(force ? "force " : "") + upper(line.where.text), dof, line.distributed};
+        HistoryKey key{(force ? "force " : "") + upper(line.where.text), dof, line.distributed};
         for (auto at = histories_.find(key); at != histories_.end() && at->second.times.until;
              at = histories_.find(key))
             ++key.part;
@@ -176,25 +163,8 @@ private:
             if (renewed[kind]) ending.merge(std::exchange(acting_[kind], {}));
         for (const bool force : {false, true})
             for (const LoadLine& line : force ? step.forces : step.boundaries)
-                for (int dof = line.first; dof <= line.last; ++dof) {
-                    History* history = at_one(line, force, dof);
-                    if (history == nullptr) continue;
-                    if (line.direction != history->line.direction)
-                        throw SceneFailure(line.where.place,
-                                           "TRVEC in another direction than before is not imported: "
-                                           "give the surface another name");
-                    follow(*history, step, line, end);
-                    if (in_total_time(line))
-                        in_total_time_.emplace(history->number, history);
-                    else
-                        in_total_time_.erase(history->number);
-                }
-        for (const LoadLine& line : step.temperatures)
-            for (const std::int32_t body : temperatures_.bodies(line.where)) {
-                const auto [at, inserted] = heated_.try_emplace(body);
-                if (inserted) at->second.points = {{0.0, temperatures_.initial(body)}};
-                follow(at->second, step, line, end);
-            }
+                refused_.attempt([&] { add_line(step, line, force, end); });
+        for (const LoadLine& line : step.temperatures) refused_.attempt([&] { heat(step, line, end); });
         for (const auto& [number, history] : ending) {
             if (history->given == step_) continue;
             if (!history->force) {
@@ -217,6 +187,30 @@ private:
             }
         instants_.add(step, time_);
         time_ = end;
+    }
+
+    void add_line(const Step& step, const LoadLine& line, bool force, double end) {
+        for (int dof = line.first; dof <= line.last; ++dof) {
+            History* history = at_one(line, force, dof);
+            if (history == nullptr) continue;
+            if (line.direction != history->line.direction)
+                throw SceneFailure(line.where.place,
+                                   "TRVEC in another direction than before is not imported: give the "
+                                   "surface another name");
+            follow(*history, step, line, end);
+            if (in_total_time(line))
+                in_total_time_.emplace(history->number, history);
+            else
+                in_total_time_.erase(history->number);
+        }
+    }
+
+    void heat(const Step& step, const LoadLine& line, double end) {
+        for (const std::int32_t body : temperatures_.bodies(line.where)) {
+            const auto [at, inserted] = heated_.try_emplace(body);
+            if (inserted) at->second.points = {{0.0, temperatures_.initial(body)}};
+            follow(at->second, step, line, end);
+        }
     }
 
     // The last of several lines of a step for the same place counts.
@@ -472,11 +466,12 @@ private:
     const Model& model_;
     const MeshData& mesh_;
     References& references_;
+    RefusalList refused_;
     Temperatures temperatures_;
     Transforms transforms_;
     std::map<std::int32_t, History> heated_;  // by body
-    std::map<Key, History> histories_;
-    std::vector<Key> keys_;                                 // in the order of the deck
+    std::map<HistoryKey, History> histories_;
+    std::vector<HistoryKey> keys_;                          // in the order of the deck
     std::set<std::pair<std::string, std::size_t>> pushed_;  // components of control nodes with a force
     std::set<std::pair<std::int64_t, int>> loaded_;         // nodes and degrees of freedom with a force of their own
     std::map<Points, Pattern> made_[2];                     // of displacements, of forces

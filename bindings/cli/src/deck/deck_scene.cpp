@@ -19,6 +19,7 @@
 #include "deck/deck_loads.hpp"
 #include "mesh/body_pieces.hpp"
 #include "text/printable.hpp"
+#include "text/refusals.hpp"
 #include "text/say.hpp"
 #include "text/toml_text.hpp"
 #include "text/wildcard.hpp"
@@ -63,12 +64,16 @@ public:
         out += fmt::format("\n[mesh]\nfile = {}\n", toml_text(mesh_name));
         if (pieces) out += "pieces = true       # what no nodes connect is a body of its own\n";
         out += "\n";
-        out += bodies_and_materials();
-        out += interfaces_text(deck_, model_, mesh_);
-        References references(deck_, model_, mesh_);
-        deck_.solver_keys = kinematics_key(deck_, references);
-        const std::string loads = loads_text(deck_, model_, mesh_, references);
-        out += references.text() + loads;
+        RefusalList refused;
+        refused.attempt([&] { out += bodies_and_materials(); });
+        refused.attempt([&] { out += interfaces_text(deck_, model_, mesh_); });
+        refused.attempt([&] {
+            References references(deck_, model_, mesh_);
+            deck_.solver_keys = kinematics_key(deck_, references);
+            const std::string loads = loads_text(deck_, model_, mesh_, references);
+            out += references.text() + loads;
+        });
+        refused.require_none();
         out += "# For labels: the deck does not say which units it has.\n[units]\nlength = \"\"\nforce = \"\"\n";
         return out;
     }
@@ -95,24 +100,27 @@ private:
         std::vector<std::string> sorted = mesh_.body_names;
         std::sort(sorted.begin(), sorted.end());
         std::size_t begin = 0;  // of its pieces
-        for (std::size_t i = 0; i < plain_names_.size(); ++i) {
-            const std::string& plain = plain_names_[i];
-            const SectionOf found = sections.of(plain);
-            if (found.section == nullptr)
-                throw SceneFailure(model_.file, fmt::format("\"{}\" has no *SOLID SECTION", plain));
-            const Section& section = *found.section;
-            require_width(section);
-            const MaterialCards& material = named(deck_.materials, section.material, "material", section.place);
-            used.insert(material.name);
-            const std::string rest =
-                fmt::format("material = {}\n{}\n", toml_text(material.name), axes_text(section, *found.scope));
-            for (const std::string& name : entries_for(plain, begin, begin + pieces_[i], sorted))
-                bodies += fmt::format("{}[[bodies]]\nname = {}\n{}", origin_line(section.place), toml_text(name), rest);
-            begin += pieces_[i];
-        }
+        RefusalList refused;
+        for (std::size_t i = 0; i < plain_names_.size(); begin += pieces_[i++])
+            refused.attempt([&] {
+                const std::string& plain = plain_names_[i];
+                const SectionOf found = sections.of(plain);
+                if (found.section == nullptr)
+                    throw SceneFailure(model_.file, fmt::format("\"{}\" has no *SOLID SECTION", plain));
+                const Section& section = *found.section;
+                require_width(section);
+                const MaterialCards& material = named(deck_.materials, section.material, "material", section.place);
+                used.insert(material.name);
+                const std::string rest =
+                    fmt::format("material = {}\n{}\n", toml_text(material.name), axes_text(section, *found.scope));
+                for (const std::string& name : entries_for(plain, begin, begin + pieces_[i], sorted))
+                    bodies +=
+                        fmt::format("{}[[bodies]]\nname = {}\n{}", origin_line(section.place), toml_text(name), rest);
+            });
         std::string out;
         for (const MaterialCards& material : deck_.materials)
-            if (used.contains(material.name)) out += material_text(material);
+            if (used.contains(material.name)) refused.attempt([&] { out += material_text(material); });
+        refused.require_none();
         return out + bodies;
     }
 
@@ -272,8 +280,11 @@ ImportedScene import_deck(const std::string& deck_path, const std::string& mesh_
     const std::vector<InpCard> cards = read_cards(deck_path, place, bytes);
     abaqus::require_importable(cards);
     abaqus::Model model;
-    abaqus::take_cards(cards, deck_path, model);
-    abaqus::Deck deck = abaqus::read_deck(cards, deck_path, model.root);
+    abaqus::Deck deck;
+    RefusalList refused;
+    refused.attempt([&] { abaqus::take_cards(cards, deck_path, model); });
+    refused.attempt([&] { deck = abaqus::read_deck(cards, deck_path, model.root); });
+    refused.require_none();
     MeshData mesh = abaqus::mesh_of(model, {}, place);
     const std::vector<std::string> plain_names = mesh.body_names;
     const std::vector<std::size_t> parts = split_into_pieces(mesh);

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "deck/abaqus/abaqus_elements.hpp"
 #include "deck/abaqus/generated.hpp"
 #include "deck/abaqus/keywords.hpp"
+#include "deck/abaqus/orientations.hpp"
 #include "text/wording.hpp"
 
 namespace cli::abaqus {
@@ -83,6 +85,8 @@ private:
             return;
         } else if (word == "NODE") {
             take_nodes(card);
+        } else if (word == "SYSTEM") {
+            system_ = node_system_of(card);
         } else if (word == "ELEMENT") {
             take_elements(card);
         } else if (word == "NGEN") {
@@ -124,6 +128,7 @@ private:
             if (placing_ != nullptr) end_instance();
             placing_ = nullptr;
             open_ = &model_.root;
+            system_.reset();
         } else if (passed_over(word)) {
             passed_.insert("*" + word);
         } else {
@@ -160,6 +165,7 @@ private:
         part = std::make_unique<Part>();
         part->name = card.required("NAME");
         open_ = part.get();
+        system_.reset();
     }
 
     void begin_instance(const InpCard& card) {
@@ -195,6 +201,7 @@ private:
         std::for_each(instance.cohesive_sections.begin(), instance.cohesive_sections.end(), renew);
         open_ = &instance;
         placing_ = &card;
+        system_.reset();
     }
 
     // The first data line moves the nodes of the part and those that the instance itself has, which are in the system
@@ -254,6 +261,7 @@ private:
             for (std::size_t i = 1; i < line.fields.size(); ++i)
                 node.at[i - 1] = inp_number(line.fields[i], line.place);
             if (system != "R") node.at = rectangular(node.at, system == "S");
+            if (system_) node.at = system_->global(node.at);
             if (!open_->node_of.emplace(node.id, open_->nodes.size()).second)
                 throw SceneFailure(line.place, fmt::format("node {} occurs twice", node.id));
             open_->nodes.push_back(node);
@@ -368,9 +376,15 @@ private:
                 surface.nodes.push_back({open_, line.fields.at(0), line.place});
                 continue;
             }
-            if (line.fields.size() != 2)
-                throw SceneFailure(line.place, "an element or an element set and a side, S1 .. S6, are expected");
-            const std::string side = upper(line.fields[1]);
+            if (line.fields.size() > 2 || line.fields.at(0).empty())
+                throw SceneFailure(line.place,
+                                   "an element or an element set and a side, S1 .. S6, are expected; without a side, "
+                                   "those of its sides that no other element has");
+            const std::string side = line.fields.size() < 2 ? "" : upper(line.fields[1]);
+            if (side.empty()) {
+                surface.sides.push_back({{open_, line.fields[0], line.place}, free_sides});
+                continue;
+            }
             if (side.size() != 2 || side[0] != 'S' || side[1] < '1' || side[1] > '6')
                 throw SceneFailure(line.place, "\"" + line.fields[1] + "\": a side, S1 .. S6, is expected");
             surface.sides.push_back({{open_, line.fields[0], line.place}, static_cast<std::size_t>(side[1] - '1')});
@@ -416,6 +430,7 @@ private:
     Part* open_;
     BoundaryElements boundary_;
     const InpCard* placing_ = nullptr;  // the *INSTANCE that is open
+    std::optional<NodeSystem> system_;  // of the nodes that follow; none: x, y, z
     bool in_step_ = false;
     std::int64_t copies_ = 0;
     std::int64_t made_ = 0;  // nodes and elements of *NGEN and *ELGEN

@@ -372,12 +372,15 @@ private:
         set.upper.push_back(faces[1]);
     }
 
-    void add_sides(const Side& side, std::vector<std::array<std::int64_t, 9>>& faces,
-                   std::set<std::int64_t>& nodes) const {
+    void add_sides(const Side& side, std::vector<std::array<std::int64_t, 9>>& faces, std::set<std::int64_t>& nodes) {
         std::set<ElementAt> elements;
         model_.collect_elements(side.elements, elements);
         for (const ElementAt& at : elements) {
             const Element& element = at.scope->elements[at.index];
+            if (side.side == free_sides) {
+                add_free_sides(at, faces, nodes);
+                continue;
+            }
             if (element.type->cohesive()) {
                 add_cohesive_side(side, at, nodes);
                 continue;
@@ -387,14 +390,55 @@ private:
                 throw SceneFailure(side.elements.place,
                                    fmt::format("S{}: element {} ({}) has sides S1 .. S{}", side.side + 1, element.id,
                                                element.type->name, shape.sides.size()));
+            faces.push_back(face_of(at, side.side));
+            take_nodes(faces.back(), nodes);
+        }
+    }
+
+    static std::array<std::int64_t, 9> face_of(const ElementAt& at, std::size_t side) {
+        std::array<std::int64_t, 9> face{};
+        face.fill(-1);
+        const std::vector<std::size_t>& places = shape_of(at.type().cell).sides[side];
+        for (std::size_t k = 0; k < places.size(); ++k) face[k] = node_number(*at.scope, at.element(), places[k]);
+        return face;
+    }
+
+    static void take_nodes(const std::array<std::int64_t, 9>& face, std::set<std::int64_t>& nodes) {
+        for (const std::int64_t node : face)
+            if (node >= 0) nodes.insert(node);
+    }
+
+    // The sides of a cell that no other element has.
+    void add_free_sides(const ElementAt& at, std::vector<std::array<std::int64_t, 9>>& faces,
+                        std::set<std::int64_t>& nodes) {
+        if (at.type().cohesive()) return;
+        if (elements_at_.empty())
+            for (const Part* scope : model_.scopes())
+                for (std::size_t i = 0; i < scope->elements.size(); ++i) count_sides({scope, i});
+        for (std::size_t k = 0; k < shape_of(at.type().cell).sides.size(); ++k) {
+            const auto face = face_of(at, k);
+            if (elements_at_.at(sorted(face)) > 1) continue;
+            faces.push_back(face);
+            take_nodes(face, nodes);
+        }
+    }
+
+    void count_sides(const ElementAt& at) {
+        const std::size_t half = at.type().face_nodes;
+        if (!at.type().cohesive())
+            for (std::size_t k = 0; k < shape_of(at.type().cell).sides.size(); ++k)
+                ++elements_at_[sorted(face_of(at, k))];
+        for (std::size_t first = 0; at.type().cohesive() && first < 2 * half; first += half) {
             std::array<std::int64_t, 9> face{};
             face.fill(-1);
-            for (std::size_t k = 0; k < shape.sides[side.side].size(); ++k) {
-                face[k] = node_number(*at.scope, element, shape.sides[side.side][k]);
-                nodes.insert(face[k]);
-            }
-            faces.push_back(face);
+            for (std::size_t k = 0; k < half; ++k) face[k] = node_number(*at.scope, at.element(), first + k);
+            ++elements_at_[sorted(face)];
         }
+    }
+
+    static std::array<std::int64_t, 9> sorted(std::array<std::int64_t, 9> face) {
+        std::sort(face.begin(), face.end());
+        return face;
     }
 
     // A side of a cohesive element is a place for ties: its nodes count, and it is no face of a body.
@@ -413,7 +457,8 @@ private:
     std::vector<std::vector<ElementAt>> elements_;  // by block of cells
     std::map<ElementAt, std::size_t> plies_in_;     // cells of an element with several plies
     std::map<ElementAt, std::int32_t> body_of_;
-    std::map<std::string, std::int32_t> label_of_;  // of bodies, by name
+    std::map<std::string, std::int32_t> label_of_;            // of bodies, by name
+    std::map<std::array<std::int64_t, 9>, int> elements_at_;  // number of elements by the sorted nodes of a side
     Met assigned_;
     std::map<std::string, std::size_t> cohesive_of_;         // by name
     std::map<std::string, LooseElements> loose_;             // by name of their set

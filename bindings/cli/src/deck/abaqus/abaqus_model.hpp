@@ -57,9 +57,12 @@ struct Set {
     Place place;
 };
 
+// Stands for the sides of elements that no other element has.
+constexpr std::size_t free_sides = static_cast<std::size_t>(-1);
+
 struct Side {
     Entry elements;
-    std::size_t side;
+    std::size_t side;  // from 0 on, or free_sides
 };
 
 struct Surface {

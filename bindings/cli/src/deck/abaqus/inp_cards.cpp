@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <set>
 #include <sstream>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -36,8 +38,10 @@ void trim_end(std::string& text) {
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
 }
 
-std::string unquoted(const std::string& text) {
-    return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
+// Each name of "instance"."set" may have quotes of its own.
+std::string unquoted(std::string text) {
+    std::erase(text, '"');
+    return text;
 }
 
 // Fields between commas outside quotes; an empty last field is dropped.
@@ -100,23 +104,30 @@ std::string of_another_program(const std::string& line) {
     return "";
 }
 
+// Takes out the mark of UTF-8 at the beginning and that of DOS for the end; lines end as on Unix, where a file of old
+// Macs has \r alone.
+std::string plain_lines(std::string text) {
+    constexpr std::string_view utf_8 = "\xEF\xBB\xBF";
+    constexpr char end_of_dos = 0x1A;
+    if (text.starts_with(utf_8)) text.erase(0, utf_8.size());
+    while (text.ends_with(end_of_dos)) text.pop_back();
+    if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
+    return text;
+}
+
 class CardReader {
 public:
     std::vector<InpCard> cards;
     std::string bytes;
 
     void read(const std::string& path, const Place& from, std::size_t depth) {
-        const std::string text = text_of(path, from);
-        bytes += text;
-        std::istringstream lines(text);
+        std::istringstream lines(text_of(path, from));
         std::string line;
         int number = 0;
         while (std::getline(lines, line)) {
             ++number;
             const Place place{path, "", number};
-            if (line.find('\0') != std::string::npos) throw SceneFailure(place, "not a text file");
-            line = trimmed(line);
-            if (line.empty() || line.rfind("**", 0) == 0) continue;
+            if (!has_words(line, place)) continue;
             if (line.front() == '*') {
                 std::string next;
                 while (line.back() == ',') {
@@ -129,31 +140,65 @@ public:
                 card.place = place;
                 parse_keyword_line(parameters_.replaced(line, place), card);
                 card.place.path = "*" + card.keyword;
-                if (card.keyword == "INCLUDE")
+                if (card.keyword == "INCLUDE") {
                     include(card, path, depth);
-                else
-                    cards.push_back(std::move(card));
+                    continue;
+                }
+                cards.push_back(std::move(card));
+                if (has_data_file(cards.back())) read_data(beside(path, cards.back()), cards.back().place);
                 continue;
             }
             if (cards.empty())
                 throw SceneFailure(place, "a keyword line (*NAME) is expected first: this is no input file of Abaqus" +
                                               of_another_program(line));
-            const std::string& keyword = cards.back().keyword;
-            if (keyword == "PARAMETER") {
-                parameters_.define(line, {path, "*PARAMETER", number});
-                continue;
-            }
-            if (keyword != "HEADING") line = parameters_.replaced(line, {path, "*" + keyword, number});
-            InpLine data{split(line), line.back() == ',', place};
-            for (std::string& field : data.fields) field = unquoted(field);
-            data.place.path = "*" + cards.back().keyword;
-            cards.back().lines.push_back(std::move(data));
+            add_data(line, place);
         }
     }
 
 private:
     std::size_t files_ = 0;
     InpParameters parameters_;
+
+    // Trims the line; false if it is a comment or empty.
+    static bool has_words(std::string& line, const Place& place) {
+        if (line.find('\0') != std::string::npos)
+            throw SceneFailure(place, "not a text file, or one of UTF-16: save it as plain text or UTF-8");
+        line = trimmed(line);
+        return !line.empty() && line.rfind("**", 0) != 0;
+    }
+
+    // A data line of the last card.
+    void add_data(std::string& line, const Place& place) {
+        const std::string& keyword = cards.back().keyword;
+        const Place of_card{place.file, "*" + keyword, place.line};
+        if (keyword == "PARAMETER") return parameters_.define(line, of_card);
+        if (keyword != "HEADING") line = parameters_.replaced(line, of_card);
+        InpLine data{split(line), line.back() == ',', of_card};
+        for (std::string& field : data.fields) field = unquoted(std::move(field));
+        cards.back().lines.push_back(std::move(data));
+    }
+
+    // True if the data lines of a card stand in a file that it names.
+    static bool has_data_file(const InpCard& card) {
+        const abaqus::Keyword* keyword = abaqus::keyword_of(card.keyword);
+        return keyword != nullptr && card.has("INPUT") && abaqus::parameter_of(*keyword, "INPUT") != nullptr;
+    }
+
+    static std::string beside(const std::string& path, const InpCard& card) {
+        return (std::filesystem::path(path).parent_path() / card.required("INPUT")).string();
+    }
+
+    void read_data(const std::string& path, const Place& from) {
+        std::istringstream lines(text_of(path, from));
+        std::string line;
+        for (int number = 1; std::getline(lines, line); ++number) {
+            const Place place{path, from.path, number};
+            if (!has_words(line, place)) continue;
+            if (line.front() == '*')
+                throw SceneFailure(place, "a data line is expected: a file that INPUT= names has no keywords");
+            add_data(line, place);
+        }
+    }
 
     // Included files may be included again, so that a small file could stand for more than any machine can read: the
     // number of files and their size are limited.
@@ -165,7 +210,9 @@ private:
         try {
             InputFile file(path);
             require_mesh_size(path, static_cast<std::int64_t>(bytes.size()) + file.size(), from);
-            return file.rest();
+            std::string text = file.rest();
+            bytes += text;
+            return plain_lines(std::move(text));
         } catch (const SceneFailure&) {
             throw;
         } catch (const Failure& e) {
@@ -178,8 +225,7 @@ private:
         card.check();
         if (depth == deepest_include)
             throw SceneFailure(card.place, fmt::format("files include each other more than {} deep", deepest_include));
-        const std::filesystem::path beside = std::filesystem::path(path).parent_path();
-        read((beside / card.required("INPUT")).string(), card.place, depth + 1);
+        read(beside(path, card), card.place, depth + 1);
     }
 };
 

@@ -84,6 +84,51 @@ Axes Orientation::axes(const std::vector<double>& of_element, const Vector& cent
     return out;
 }
 
+Vector NodeSystem::global(const Vector& at) const {
+    Vector out = origin;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k) out[k] += at[i] * axes[i][k];
+    return out;
+}
+
+// Origin and a point of axis 1, then a point on the side of axis 2; without the latter axis 3 stays z.
+std::optional<NodeSystem> node_system_of(const InpCard& card) {
+    card.check();
+    if (card.lines.empty()) return std::nullopt;
+    if (card.lines.size() > 2) throw SceneFailure(card.lines[2].place, "at most two lines are expected");
+    std::vector<double> points = card.lines[0].numbers();
+    if (points.size() > 6)
+        throw SceneFailure(card.lines[0].place, fmt::format("{} coordinates: 3 of the origin, and 3 of a point of the "
+                                                            "axis of x, are expected",
+                                                            points.size()));
+    const bool turned = points.size() > 3;
+    points.resize(turned ? 6 : 3, 0.0);
+    NodeSystem out;
+    out.origin = {points[0], points[1], points[2]};
+    if (!turned) {
+        if (card.lines.size() > 1)
+            throw SceneFailure(card.lines[1].place, "a point of the axis of x is expected in the first line");
+        return out;
+    }
+    Vector along = difference(points, 3, 0);
+    if (card.lines.size() == 1) along[2] = 0;
+    if (along == Vector{}) throw SceneFailure(card.lines[0].place, "the points of the axis of x are the same");
+    out.axes[0] = unit(along, card.lines[0].place);
+    if (card.lines.size() > 1) {
+        std::vector<double> third = card.lines[1].numbers();
+        if (third.size() > 3)
+            throw SceneFailure(card.lines[1].place, fmt::format("{} coordinates: 3 are expected", third.size()));
+        third.resize(3, 0.0);
+        const Vector to{third[0] - points[0], third[1] - points[1], third[2] - points[2]};
+        const Vector across = normal_to(out.axes[0], to);
+        if (!(std::hypot(across[0], across[1], across[2]) > 1e-9 * std::hypot(to[0], to[1], to[2])))
+            throw SceneFailure(card.lines[1].place, "this point lies on the axis of x: it gives no axis of y");
+        out.axes[2] = unit(across, card.lines[1].place);
+    }
+    out.axes[1] = normal_to(out.axes[2], out.axes[0]);
+    return out;
+}
+
 Orientation orientation_of(const InpCard& card) {
     card.check();
     Orientation out;

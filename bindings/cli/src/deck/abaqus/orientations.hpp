@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The material axes of *ORIENTATION: of whole sections, or of each element by its place or by a *DISTRIBUTION; and the
-// plies of a section, which turn them.
+// plies of a section, which turn them. The axes of *SYSTEM, which nodes have.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 
 #include "deck/abaqus/inp_cards.hpp"
 #include "mesh/ply_cells.hpp"
+#include "text/refusals.hpp"
 
 namespace cli::abaqus {
 
@@ -25,7 +26,7 @@ struct Orientation {
     int about = 0;               // 0: not said
     double angle = 0;            // degrees
     Place place;
-    std::optional<SceneFailure> refusal{};  // why it cannot be used
+    std::optional<Refusals> refusal{};  // why it cannot be used
 
     // True if elements of one section may have different axes.
     [[nodiscard]] bool of_each_element() const { return cylindrical || !distribution.empty(); }
@@ -34,6 +35,18 @@ struct Orientation {
 };
 
 Orientation orientation_of(const InpCard& card);
+
+// The rectangular system of *SYSTEM, in which a deck gives nodes.
+struct NodeSystem {
+    Vector origin{};
+    Axes axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+    // Returns the point in x, y, z.
+    [[nodiscard]] Vector global(const Vector& at) const;
+};
+
+// Returns none where the card, without lines, ends the system of another one.
+std::optional<NodeSystem> node_system_of(const InpCard& card);
 
 // The plies of a section with COMPOSITE, from the side of the first nodes of its elements on.
 struct Laminate {

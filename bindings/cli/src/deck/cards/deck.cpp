@@ -40,7 +40,7 @@ const Orientation& orientation_of(const Deck& deck, const Section& section) {
     for (const std::string& part : {section.part, std::string()})
         if (const auto found = deck.orientations.find({part, upper(section.orientation)});
             found != deck.orientations.end()) {
-            if (found->second.refusal) throw SceneFailure(*found->second.refusal);
+            if (found->second.refusal) throw Refusals(*found->second.refusal);
             return found->second;
         }
     return named(Catalogue<Orientation>(), section.orientation, "orientation", section.place);

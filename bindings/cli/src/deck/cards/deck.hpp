@@ -18,6 +18,7 @@
 #include "deck/abaqus/inp_cards.hpp"
 #include "deck/abaqus/orientations.hpp"
 #include "text/error.hpp"
+#include "text/refusals.hpp"
 #include "text/wording.hpp"
 
 namespace cli::abaqus {
@@ -73,7 +74,7 @@ struct MaterialCards {
     Numbers expansion{};  // one value, or one for each axis; empty: none
     DamageCards damage{};
     Place place;
-    std::optional<SceneFailure> refusal{};  // why it cannot be used
+    std::optional<Refusals> refusal{};  // why it cannot be used
 };
 
 struct Section {
@@ -98,7 +99,7 @@ struct InteractionCards {
     std::string eligibility;
     DamageCards damage;
     Place place;
-    std::optional<SceneFailure> refusal{};
+    std::optional<Refusals> refusal{};
 };
 
 struct ContactPair {
@@ -116,7 +117,7 @@ struct Amplitude {
     bool smooth = false;
     std::vector<std::pair<double, double>> points;
     Place place;
-    std::optional<SceneFailure> refusal{};
+    std::optional<Refusals> refusal{};
 };
 
 // A term of *EQUATION.
@@ -250,7 +251,7 @@ inline void say_once(std::vector<std::string>& texts, const std::string& text) {
 template <class T>
 const T& named(const Catalogue<T>& all, const std::string& name, const char* what, const Place& place) {
     if (const T* found = all.find(name)) {
-        if (found->refusal) throw SceneFailure(*found->refusal);
+        if (found->refusal) throw Refusals(*found->refusal);
         return *found;
     }
     std::vector<std::string> known;

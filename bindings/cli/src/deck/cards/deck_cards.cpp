@@ -2,10 +2,13 @@
 #include "deck/cards/deck_cards.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -40,8 +43,11 @@ public:
         : path_(path), root_(root), steps_(deck_, root), constraints_(deck_, root) {}
 
     Deck read(const std::vector<InpCard>& cards) {
-        for (const InpCard& card : cards) take(card);
-        constraints_.finish();
+        RefusalList refused;
+        for (const InpCard& card : cards)
+            if (!refused.attempt([&] { take(card); }) && others_follow(card.keyword)) refused.require_none();
+        refused.attempt([&] { constraints_.finish(); });
+        refused.require_none();
         if (deck_.steps.empty())
             throw SceneFailure({path_, "", 0},
                                "there is no *STEP in it: a deck with loads is expected; a "
@@ -69,6 +75,14 @@ private:
         } catch (const SceneFailure& failure) {
             if (!keep_for_use(card, keyword->use, failure)) throw;
         }
+    }
+
+    // True if later cards belong to this one, so that they would be refused for its fault.
+    static bool others_follow(const std::string& keyword) {
+        static const std::set<std::string, std::less<>> known{
+            "CONTACT PAIR", "COUPLING", "DISTRIBUTING", "DYNAMIC", "END STEP", "INSTANCE",
+            "KINEMATIC",    "MATERIAL", "PART",         "STATIC",  "STEP",     "SURFACE INTERACTION"};
+        return known.contains(keyword);
     }
 
     void take_known(const InpCard& card) {
@@ -114,7 +128,7 @@ private:
     // Keeps what is wrong with a material, an interaction, an amplitude or an orientation until one asks for it: many
     // decks have some that nothing uses. False: it is wrong at once.
     bool keep_for_use(const InpCard& card, Use use, const SceneFailure& failure) {
-        std::optional<SceneFailure>* kept = nullptr;
+        std::optional<Refusals>* kept = nullptr;
         if (use == Use::law || use == Use::no_law) {
             if (damage_of_ == &DeckReader::damage_of_material) kept = &deck_.materials.back().refusal;
             if (damage_of_ == &DeckReader::damage_of_interaction) kept = &deck_.interactions.back().refusal;
@@ -133,13 +147,15 @@ private:
             kept = &deck_.orientations.try_emplace(key).first->second.refusal;
         }
         if (kept == nullptr) return false;
-        if (!*kept) *kept = failure;
+        std::vector<SceneFailure> all = *kept ? (*kept)->all() : std::vector<SceneFailure>{};
+        all.push_back(failure);
+        kept->emplace(std::move(all));
         return true;
     }
 
     // Lists what would be refused if something used it.
     void list_refused() {
-        const auto list = [&](const char* what, const std::string& name, const std::optional<SceneFailure>& refusal) {
+        const auto list = [&](const char* what, const std::string& name, const std::optional<Refusals>& refusal) {
             if (!refusal) return;
             const Place& place = refusal->place();
             deck_.left_out.push_back(fmt::format("{} \"{}\", which nothing uses ({})", what, name, place.text()));

@@ -18,10 +18,6 @@ namespace cli::abaqus {
 
 namespace {
 
-// Each says something else, so that a person reads them; half and twice as many change nothing but the length of the
-// list (ctest -R cli_deck_elements).
-constexpr std::size_t most_said = 40;
-
 // Objects that a deck may have without using them, and the parameter that asks for one.
 const std::pair<const char*, const char*> kinds[] = {
     {"MATERIAL", "MATERIAL"},
@@ -41,9 +37,8 @@ public:
         if (said_.empty()) return;
         std::vector<SceneFailure> out;
         for (const auto& [failure, count] : said_) {
-            if (out.size() == most_said) {
-                out.emplace_back(failure.place(), fmt::format("this and {} other things are not imported either",
-                                                              said_.size() - most_said));
+            if (out.size() == most_refusals) {
+                out.emplace_back(failure.place(), RefusalList::others_text(said_.size() - most_refusals));
                 break;
             }
             if (count == 1)
