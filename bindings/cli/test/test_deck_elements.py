@@ -159,6 +159,11 @@ def check_values():
     code, _, error = delam("import", write(text, "deck.inp"))
     said = ("make nu23 = ", "are not positive definite", '"Tip"', '"Tips"')
     expect(code == 2 and len(error.strip().splitlines()) == len(said) and all(words in error for words in said), f"where used: {error}")
+    # Forces on what is not there, of several kinds.
+    text = deck(after="*Cload\nNone, 1, 1.\n*Dsload\nNo surface, P, 1.\nNo skin, P, 1.\n")
+    code, _, error = delam("import", write(text, "deck.inp"))
+    said = ('"None"', '"No surface"', '"No skin"')
+    expect(code == 2 and len(error.strip().splitlines()) == 3 and all(words in error for words in said), f"forces: {error}")
     # Two faults of one material that a body has, and those of a card on which others hang alone.
     text = deck(elastic="*Elastic\n1000.\n*Expansion\n1., 2., 3., 4.\n")
     refused(text, r"\*ELASTIC: 1 numbers: 2 constants", r"\*EXPANSION: 4 numbers")

@@ -188,6 +188,19 @@ def check_femap():
         refused(bar(mesh=nodes.replace(old, new) + mesh), r"deck\.inp:\d+: \*SYSTEM: ", pattern)
 
 
+def check_columns_of_nodes():
+    """Coordinates that are blank or missing are 0, and normals follow them in older decks."""
+    text = bar()
+    for what, pattern, line in (("a blank", r"0\.0, (\d\.\d)", r"\1, , \2"), ("none behind", r"(\d\.\d), 0\.0", r"\1, \2"),
+                                ("normals", r"(\d\.\d), (\d\.\d)", r"\1, \2, \3, 0., 0., 0., 1.")):
+        changed = re.sub(rf"(?m)^(\d+), {pattern}$", line, text)
+        expect(changed != text, "nodes are changed")
+        pulled(what, changed)
+    _, said = imported(re.sub(r"(?m)^(\d+), (\d\.\d), (\d\.\d)$", r"\1, \2, \3, 0., 0., 0., 1.", text))
+    expect("left out  normals of *NODE" in said, "normals are left out")
+    refused(text.replace("\n1, 0.0, 0.0\n", "\n1, 0.0, 0.0, 0., 0., 0., 1., 2.\n"), r"\*NODE: 8 entries")
+
+
 def check_bytes():
     """A mark of UTF-8, letters of a title in it or in Latin 1, a line of blanks and tabs, ends of lines of DOS and of old Macs,
     an end of the file within the last line."""
@@ -295,7 +308,7 @@ def check_whole_sets_as_surfaces():
         refused(bar(glue=False, law=SURFACES.replace("A2, S3", wrong) + ADHERE), r"deck\.inp:\d+: \*SURFACE: ", pattern)
 
 
-for check in (check_types_of_elements, check_cgx, check_texgen, check_freecad, check_femap, check_bytes, check_rotated_instances,
-              check_whole_sets_as_surfaces):
+for check in (check_types_of_elements, check_cgx, check_texgen, check_freecad, check_femap, check_columns_of_nodes, check_bytes,
+              check_rotated_instances, check_whole_sets_as_surfaces):
     check()
 finish()

@@ -43,7 +43,6 @@ public:
                 for (int dof = line.first; dof <= line.last; ++dof) at_one(line, false, dof);
             });
         for (const Step& step : deck_.steps) add_step(step);
-        refused_.require_none();
         for (auto& [key, history] : histories_) history.hold_until(time_);
         for (auto& [body, history] : heated_) history.hold_until(time_);
         say_width();
@@ -52,36 +51,39 @@ public:
         std::map<std::string, std::vector<std::size_t>> held;  // places with nothing but 0
         std::vector<std::pair<std::string, Place>> order;
         std::map<std::string, int> moved;  // places by pattern
-        for (const auto& key : keys_) {
-            const History& history = histories_.at(key);
-            if (history.times.until && *history.times.until == 0)
-                continue;  // of the model, taken away by the first step
-            if (history.force) {
-                loads += force_text(history, key.dof);
-            } else if (history.peak() != 0) {
-                const auto [pattern, coefficient] = pattern_of(history);
-                ++moved[pattern];
-                const auto turned = transforms_.direction(history.line.where, key.dof);
-                for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof))
-                    loads += fmt::format(
-                        "{}[[loads]]\n{}{}{}\npattern = {}\n{}\n", origin_line(history.line.where.place), place,
-                        history.times.text(),
-                        turned ? "direction = " + toml_list(*turned)
-                               : fmt::format("component = [\"{}\"]", axis_names[axis]),
-                        toml_text(pattern),
-                        coefficient == 1 ? "" : fmt::format("coefficient = {}\n", toml_number(coefficient)));
-            } else if (const auto turned = transforms_.direction(history.line.where, key.dof)) {
-                for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof))
-                    out += fmt::format("{}[[supports]]\n{}{}direction = {}\n\n", origin_line(history.line.where.place),
-                                       place, history.times.text(), toml_list(*turned));
-            } else {
-                for (const auto& [at, axis, control] : prescribed(history.line.where, key.dof)) {
-                    const std::string place = at + history.times.text();
-                    if (!held.contains(place)) order.emplace_back(place, history.line.where.place);
-                    held[place].push_back(axis);
+        for (const auto& key : keys_)
+            refused_.attempt([&] {
+                const History& history = histories_.at(key);
+                if (history.times.until && *history.times.until == 0)
+                    return;  // of the model, taken away by the first step
+                if (history.force) {
+                    loads += force_text(history, key.dof);
+                } else if (history.peak() != 0) {
+                    const auto [pattern, coefficient] = pattern_of(history);
+                    ++moved[pattern];
+                    const auto turned = transforms_.direction(history.line.where, key.dof);
+                    for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof))
+                        loads += fmt::format(
+                            "{}[[loads]]\n{}{}{}\npattern = {}\n{}\n", origin_line(history.line.where.place), place,
+                            history.times.text(),
+                            turned ? "direction = " + toml_list(*turned)
+                                   : fmt::format("component = [\"{}\"]", axis_names[axis]),
+                            toml_text(pattern),
+                            coefficient == 1 ? "" : fmt::format("coefficient = {}\n", toml_number(coefficient)));
+                } else if (const auto turned = transforms_.direction(history.line.where, key.dof)) {
+                    for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof))
+                        out +=
+                            fmt::format("{}[[supports]]\n{}{}direction = {}\n\n", origin_line(history.line.where.place),
+                                        place, history.times.text(), toml_list(*turned));
+                } else {
+                    for (const auto& [at, axis, control] : prescribed(history.line.where, key.dof)) {
+                        const std::string place = at + history.times.text();
+                        if (!held.contains(place)) order.emplace_back(place, history.line.where.place);
+                        held[place].push_back(axis);
+                    }
                 }
-            }
-        }
+            });
+        refused_.require_none();
         for (const auto& [pattern, places] : moved)
             if (places > 1)
                 deck_.changed.push_back(fmt::format(

@@ -254,12 +254,14 @@ private:
         card.check();
         const std::string system = card.has("SYSTEM") ? card.required("SYSTEM") : "R";
         for (const InpLine& line : card.lines) {
-            if (line.fields.size() < 3 || line.fields.size() > 4)
-                throw SceneFailure(line.place, fmt::format("{} entries: a number and 2 or 3 coordinates are expected",
+            if (line.fields.size() > 7)
+                throw SceneFailure(line.place, fmt::format("{} entries: a number, up to 3 coordinates and 3 of a "
+                                                           "normal are expected",
                                                            line.fields.size()));
-            Node node{label(line.fields[0], "node", line.place), {}};
-            for (std::size_t i = 1; i < line.fields.size(); ++i)
-                node.at[i - 1] = inp_number(line.fields[i], line.place);
+            Node node{label(line.fields.at(0), "node", line.place), {}};
+            const std::vector<double> values = line.numbers(1);
+            std::copy_n(values.begin(), std::min(values.size(), node.at.size()), node.at.begin());
+            if (values.size() > node.at.size()) set_note("left out: normals of *NODE, which shells alone have");
             if (system != "R") node.at = rectangular(node.at, system == "S");
             if (system_) node.at = system_->global(node.at);
             if (!open_->node_of.emplace(node.id, open_->nodes.size()).second)
