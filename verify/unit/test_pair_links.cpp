@@ -59,7 +59,7 @@ TEST(linear_fields_on_quadrilaterals_of_any_shape) {
 }
 
 // A triangle with two sides on the rim has a corner whose links, and a middle of a side whose link, have one direction.
-// What is missed is the share of these triangles.
+// The sum misses the share of these triangles.
 TEST(triangles_at_corners_count_in_one_direction) {
     for (const CellType type : {CellType::tet10, CellType::wedge15}) {
         double before = 0.0;

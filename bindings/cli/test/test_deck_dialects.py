@@ -63,7 +63,7 @@ def check_two_sections():
               "".join(f"*COHESIVE SECTION, ELSET={n}, MATERIAL=GLUE, RESPONSE=TRACTION SEPARATION\n,2.\n" for n in "GH"))
     text = bar(glue=False).replace("*SOLID SECTION", halves + "*SOLID SECTION", 1)
     pulled("two alike", text)
-    # Of two thicknesses, each has a part of the interface.
+    # Each of two thicknesses has a part of the interface.
     scene, _ = imported(text.replace("\n,2.\n*SOLID", "\n2.,2.\n*SOLID", 1))
     stiffnesses = sorted(float(value) for value in re.findall(r"\nnormal_stiffness = (\S+)", scene))
     expect(stiffnesses == [STIFFNESS / 2, STIFFNESS] and all(f'part = [{{ set = "{name}" }}]' in scene for name in "GH"),

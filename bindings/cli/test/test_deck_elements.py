@@ -152,7 +152,7 @@ def check_values():
     expect(code == 2 and len(lines) == len(wanted) and all(card in line for card, line in zip(wanted, lines)), f"of cards: {error}")
     numbers = [int(line.split("deck.inp:")[1].split(":")[0]) for line in lines]
     expect(numbers == sorted(numbers), f"in the order of the lines: {numbers}")
-    # What is judged where a card is used: two materials and two places of loads.
+    # Two materials and two places of loads are judged where a card uses them.
     text = deck(elastic="*Elastic, type=LAMINA\n1000., 500., 0.3, 400., 400., 100.\n", loads="Tip, 2, 2, 0.03\nTips, 2, 2, 0.01\n",
                 extra="*Material, name=N\n*Elastic, type=ORTHOTROPIC\n1., 2., 1., 0., 0., 1., 1., 1.\n1.\n")
     text = text.replace("*Solid section, elset=Up, material=M", "*Solid section, elset=Up, material=N")
