@@ -175,13 +175,13 @@ def size_beam(of):
     of.displacement = float(f"{PAST * max(ends):.3g}")
 
 
-def checked(of):
+def checked(of, *options):
     """What `delam check` finds out about the scene as it is now."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "scene.toml")
         with open(path, "w", encoding="utf-8") as file:
             file.write(scenes.scene(of))
-        done = subprocess.run([os.environ["DELAM"], "check", path, "--json"], capture_output=True, text=True, check=False)
+        done = subprocess.run([os.environ["DELAM"], "check", path, "--json", *options], capture_output=True, text=True, check=False)
     found = json.loads(done.stdout) if done.stdout.startswith("{") else {"correct": False}
     if not found["correct"]:
         said = found.get("errors", [{"message": done.stderr.strip()}])[0]
@@ -191,7 +191,7 @@ def checked(of):
 
 def process_zone(of):
     """The shortest predicted one, mm."""
-    lengths = [float(re.search(r"about ([\d.e+-]+)", text)[1]) for text in checked(of)["process_zones"]]
+    lengths = [float(re.search(r"about ([\d.e+-]+)", text)[1]) for text in checked(of, "--no-plan")["process_zones"]]
     return min(lengths) if lengths else math.inf
 
 

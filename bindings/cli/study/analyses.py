@@ -176,7 +176,7 @@ class Check:
 
     def __init__(self, scene, settings):
         words = [word for one in settings for word in ("--set", one)]
-        done = subprocess.run([program(), "check", scene, "--json", *words], stdout=subprocess.PIPE,
+        done = subprocess.run([program(), "check", scene, "--json", "--no-plan", *words], stdout=subprocess.PIPE,
                               stderr=subprocess.DEVNULL, check=False)
         try:
             self.found = json.loads(done.stdout)

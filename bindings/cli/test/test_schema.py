@@ -213,6 +213,14 @@ def test_check_as_json():
         {"name": "lower-upper", "pairs": 81, "kind": "law", "law": "ductile", "regions": 1}])
     check("time", found["time"] == {"from": 0.0, "to": 2.0, "steps": 20})
     check("warnings are a list", isinstance(found["warnings"], list) and found["plan"])
+    code, out, error = delam("check", "--json", "--no-plan", write(SCENE))
+    without = json.loads(out)
+    check(f"all but the plan: {error}", code == 0 and not without["plan"] and "effort" not in without
+          and all(value == found[key] for key, value in without.items() if key not in ("plan", "file")))
+    code, out, error = delam("check", "--no-plan", write(SCENE))
+    check(f"nor is it told: {out}", code == 0 and "unknowns" in out and "How it is computed" not in out and "effort" not in out)
+    code, _, error = delam("check", "--no-plan", write(changed('fix = ["x", "y"]', 'fix = ["x"]')))
+    check(f"bodies without support are found nevertheless: {error}", code == 2)
 
 
 def test_progress_as_json():

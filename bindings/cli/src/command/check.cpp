@@ -224,7 +224,7 @@ void say_lines_of(const Found& found) {
     }
     if (found.contains("effort")) say_effort(found["effort"]);
     for (const Found& note : found["notes"]) say("note: {}\n", note.get<std::string>());
-    say_plan(found["plan"]);
+    if (!found["plan"].empty()) say_plan(found["plan"]);
     // Not on standard output, where they are lost when that goes to a file.
     for (const Found& warning : found["warnings"]) complain("warning: {}\n", warning.get<std::string>());
 }
@@ -268,8 +268,8 @@ Found errors_of(const Failure& failure) {
 }
 
 // drawing: is filled if it is there.
-Found examined(const std::string& scene_file, const std::vector<std::string>& settings, const Caller& caller,
-               nlohmann::json* drawing) {
+Found examined(const std::string& scene_file, const std::vector<std::string>& settings, bool with_plan,
+               const Caller& caller, nlohmann::json* drawing) {
     const Scene scene = read_scene(scene_file, settings);
     std::vector<std::string> imported;
     if (scene.imported) imported = import_lines(*scene.imported);
@@ -281,7 +281,10 @@ Found examined(const std::string& scene_file, const std::vector<std::string>& se
     const History history(model, scene);
     Planned planned;
     const auto make_plan = [&] {
-        planned = plan(model, scene);
+        if (with_plan)
+            planned = plan(model, scene);
+        else
+            call(model.context.get(), delam_problem_check(model.problem.get()), {scene.file, "", 0});
         return 0;
     };
     (void)(caller.around ? caller.around(model, make_plan) : make_plan());
@@ -303,21 +306,23 @@ Found examined(const std::string& scene_file, const std::vector<std::string>& se
 
 }  // namespace
 
-int check(const std::string& scene_file, const std::vector<std::string>& settings, bool json,
-          const std::string& drawing, const Caller& caller) {
+int check(const std::string& scene_file, const std::vector<std::string>& settings, const CheckWishes& wishes,
+          const Caller& caller) {
+    const std::string& drawing = wishes.drawing;
     constexpr auto replace = Found::error_handler_t::replace;
     if (!drawing.empty()) require_drawable(drawing, caller);
     nlohmann::json drawn;
     nlohmann::json* wanted = drawing.empty() ? nullptr : &drawn;
-    if (!json) {
-        const Found found = examined(scene_file, settings, caller, wanted);
+    const auto find_all = [&] { return examined(scene_file, settings, !wishes.no_plan, caller, wanted); };
+    if (!wishes.json) {
+        const Found found = find_all();
         for (const Found& line : found["imported"]) say("{}\n", line.get<std::string>());
         say_lines_of(found);
         if (wanted != nullptr) draw(drawn, drawing);
         return exit_done;
     }
     try {
-        say("{}\n", examined(scene_file, settings, caller, wanted).dump(2, ' ', false, replace));
+        say("{}\n", find_all().dump(2, ' ', false, replace));
     } catch (const Failure& failure) {
         if (failure.code() != exit_scene) throw;  // the scene may be right
         const Found found{{"correct", false}, {"file", scene_file}, {"errors", errors_of(failure)}};

@@ -89,8 +89,12 @@ int claim(const std::string& folder, const std::vector<std::string>& names, bool
 int discard(const std::vector<std::string>& folders);
 // Lists the options of [solver] and the parameters of the laws.
 int options(bool json);
-// json: one object instead of lines, also for a wrong scene. drawing: a file for a drawing of the scene; "": none.
-int check(const std::string& scene_file, const std::vector<std::string>& settings, bool json,
-          const std::string& drawing, const Caller& caller);
+struct CheckWishes {
+    bool json = false;     // one object instead of lines, also for a wrong scene
+    bool no_plan = false;  // without what an analysis takes, whose prediction is most of the work
+    std::string drawing;   // a file for a drawing of the scene; "": none
+};
+int check(const std::string& scene_file, const std::vector<std::string>& settings, const CheckWishes& wishes,
+          const Caller& caller);
 
 }  // namespace cli

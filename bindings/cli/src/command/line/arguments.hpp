@@ -33,6 +33,7 @@ struct Arguments {
     ViewWishes view;
     Study study;
     SpecimenWishes specimen;
+    CheckWishes check;
 };
 
 struct Commands {

@@ -166,7 +166,7 @@ int guarded(int argc, char** argv, const Caller& caller) {
                                        : claim(names.front(), {names.begin() + 1, names.end()}, given.known);
     }
     if (of.serve->parsed()) return serve(caller);
-    if (of.check->parsed()) return check(given.scene, given.settings, given.json, given.page, caller);
+    if (of.check->parsed()) return check(given.scene, given.settings, given.check, caller);
     if (of.run->parsed()) {
         say_json_lines(given.progress == "json");
         return run(given.scene, given.settings, given.folder, given.resume, joined(argc, argv), caller);
