@@ -524,6 +524,14 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
  *   normal_strength, tangential_strength    F/L2  > 0       peak s of the traction of that mode, in the place of its
  *                                                           onset: Go is s^2/(2 k_n) or s^2/(2 k_t)
  *   normal_toughness, tangential_toughness  F/L   >= onset  Gc at B = 0, at B = 1
+ *   second_tangential_onset                 F/L   > 0       Go at B = 1 along the second tangent of a pair in space,
+ *                                                           where tangential_onset is along the first; not given: the
+ *                                                           same along both
+ *   second_tangential_strength              F/L2  > 0       peak s of the traction along the second tangent, in the
+ *                                                           place of its onset: Go is s^2/(2 k_t), k_t being that
+ *                                                           along this tangent
+ *   second_tangential_toughness             F/L   >= onset  Gc at B = 1 along the second tangent; not given: the same
+ *                                                           along both
  *   plateau                                 -     [0, 1)    trapezoidal only
  *   gradient                                F L   >= 0      coefficient kappa (default 0) of the energy kappa/2 |grad
  *                                                           zeta|^2
@@ -538,8 +546,13 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
  * The exponents of a criterion are numbers > 0 with default 2; a change of the criterion resets them to 2. The text
  * `onset_criterion` selects another criterion for the onset alone. With power and onset_exponent = 1, damage begins at
  * (t_n/s_n)^2 + (t_t/s_t)^2 = 1, t being tractions and s their peaks in the pure modes.
- * Gc(B) >= Go(B) must hold for every mixity B in [0,1]. A key that does not belong to the kind or to the criterion
- * gives DELAM_ERROR_ARGUMENT. Of an onset and a strength of the same mode, the one set last counts.
+ * With other numbers along the second tangent, G_t depends on the share S = Y_2/Y_t of the energy of sliding along it.
+ * It follows by the same criterion with an exponent of 1 from the number G_1 of the first tangent and G_2 of the second:
+ *   valoroso-champaney, power  1/G_t = (1-S)/G_1 + S/G_2
+ *   benzeggagh-kenane          G_t = G_1 + (G_2 - G_1) S
+ * mixity_rule = variational does not know such laws; frozen and converged do.
+ * Gc >= Go must hold for every mixity B in [0,1] and every share S in [0,1]. A key that does not belong to the kind or
+ * to the criterion gives DELAM_ERROR_ARGUMENT. Of an onset and a strength of the same mode, the one set last counts.
  * With kappa > 0, the damage of all pairs of an interface is coupled and follows from one minimisation. It spreads over
  * a length of about sqrt(kappa/Gc), which the mesh of the interface must resolve. The gradient term acts only on faces
  * whose pairs all have an initial adhesion > 0.
@@ -609,9 +622,9 @@ typedef int32_t (*delam_dissipation_callback)(double mixity, double adhesion, do
  * delam_problem_hash. The callbacks and user must stay valid as long as the law is used, and as long as any problem or
  * solver that took it exists. If such an object is destroyed during a call, the callbacks and user must stay valid
  * until that call ends. The keys are `normal_stiffness`, `tangential_stiffness`,
- * `second_tangential_stiffness` and `gradient`. delam_law_check and
- * delam_problem_set_law test at samples whether the two callbacks belong to the same g. If they do not, the message
- * names the first such sample.
+ * `second_tangential_stiffness` and `gradient`. The callbacks do not know the direction of sliding, so that onset and
+ * toughness in shear are the same along both tangents. delam_law_check and delam_problem_set_law test at samples
+ * whether the two callbacks belong to the same g. If they do not, the message names the first such sample.
  * [null user; owns out caller, callbacks and user: the host, as long as problems and solvers that took the law; status
  * argument; since 0.1] */
 DELAM_API int32_t delam_law_create_host(delam_context *context, const char *name, delam_adhesion_callback adhesion,
@@ -621,12 +634,14 @@ DELAM_API int32_t delam_law_create_host(delam_context *context, const char *name
  * [status problem; since 0.1] */
 DELAM_API int32_t delam_law_check(const delam_law *law);
 /* Computes the onset Go and the toughness Gc of a law at count mixities B = Y_t/Y; mixity, onset, toughness: [count].
+ * Where the law has other numbers along the second tangent, they are those of sliding along the first (S = 0).
  * [unit mixity 1 in [0, 1], onset F/L, toughness F/L; null onset, toughness; status argument, problem; source of
  * delam_law_create; since 0.1] */
 DELAM_API int32_t delam_law_toughness(const delam_law *law, int64_t count, const double *mixity, double *onset,
                                       double *toughness);
 /* Performs one damage step at each of the given jumps, without the gradient term. It holds the given mixity fixed. It
- * finds the adhesion zeta that minimises the energy over 0 <= zeta <= adhesion_old, and the traction zeta k [u].
+ * finds the adhesion zeta that minimises the energy over 0 <= zeta <= adhesion_old, and the traction zeta k [u]. The
+ * share S of the second tangent is that of the jump.
  *   jump, traction                  [count][dimension] in local components, normal first; a negative normal jump is an
  *                                   error
  *   mixity, adhesion_old, adhesion  [count]

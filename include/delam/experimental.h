@@ -243,8 +243,9 @@ DELAM_API int32_t delam_experimental_mesh_cut(delam_mesh *mesh, int64_t face_cou
                                               const int64_t *faces, int32_t index_base, int64_t *out_nodes);
 /* Turns the frames of an interface in space about their normals, so that the first tangent of each pair lies along the
  * projection of a direction. Without this call it is the projection of the x axis, or of the y axis where the normal is
- * within 26 degrees of x. Laws with a `second_tangential_stiffness` act along these tangents, and so do the components
- * of jumps and tractions. A problem keeps the frames that the mesh has when the problem is created.
+ * within 26 degrees of x. Laws with a `second_tangential_stiffness`, onset, strength or toughness act along these
+ * tangents, and so do the components of jumps and tractions. A problem keeps the frames that the mesh has when the
+ * problem is created.
  *   directions  [count][3], any length > 0; count is 1, for all pairs, or the number of pairs
  * DELAM_ERROR_MESH: a direction is the normal of a pair.
  * [unit directions 1 finite; null none; status cancelled, argument, mesh; source none; since 0.3] */

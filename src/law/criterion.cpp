@@ -95,15 +95,23 @@ const char* name_of(Criterion criterion) {
     return "";
 }
 
-double toughness_at(Criterion criterion, const Modes& m, double mixity) {
+Modes along(Criterion criterion, const Modes& m, double second_share) {
+    if (!m.two_shears()) return m;
+    const Modes shears{m.tangential, m.second_shear, 1.0, 1.0};
+    return {m.normal, toughness_at(criterion, shears, second_share), m.first, m.second};
+}
+
+double toughness_at(Criterion criterion, const Modes& m, const Mixity& mixity) {
+    if (m.two_shears()) return toughness_at(criterion, along(criterion, m, mixity.second), mixity.shear);
     if (criterion == Criterion::benzeggagh_kenane)
-        return m.normal + (m.tangential - m.normal) * std::pow(mixity, m.first);
-    return interaction(m.normal, m.tangential, m.first, m.second, mixity);
+        return m.normal + (m.tangential - m.normal) * std::pow(mixity.shear, m.first);
+    return interaction(m.normal, m.tangential, m.first, m.second, mixity.shear);
 }
 
 double least_toughness(Criterion criterion, const Modes& m) {
     const double r = criterion == Criterion::benzeggagh_kenane ? 1.0 : std::min({m.first, m.second, 1.0});
-    return std::exp2(1.0 - 1.0 / r) * std::min(m.normal, m.tangential);
+    const double sliding = m.two_shears() ? std::min(m.tangential, m.second_shear) : m.tangential;
+    return std::exp2(1.0 - 1.0 / r) * std::min(m.normal, sliding);
 }
 
 double toughness_slope_at(Criterion criterion, const Modes& m, double mixity) {
@@ -116,7 +124,7 @@ double toughness_slope_at(Criterion criterion, const Modes& m, double mixity) {
 }
 
 bool depends_on_mixity(Criterion criterion, const Modes& m) {
-    if (m.normal != m.tangential) return true;
+    if (m.normal != m.tangential || m.two_shears()) return true;
     return criterion != Criterion::benzeggagh_kenane && (m.first != 1.0 || m.second != 1.0);
 }
 

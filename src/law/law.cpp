@@ -39,16 +39,25 @@ double onset_of(double given, double strength, double stiffness) {
 Modes Law::onset_modes() const {
     if (!softens()) return total_modes();
     return {onset_of(normal_onset, normal_strength, normal_stiffness),
-            onset_of(tangential_onset, tangential_strength, tangential_stiffness), onset_exponent_1, onset_exponent_2};
+            onset_of(tangential_onset, tangential_strength, tangential_stiffness), onset_exponent_1, onset_exponent_2,
+            onset_of(second_tangential_onset, second_tangential_strength, stiffness(2))};
 }
 Modes Law::total_modes() const {
-    return {normal_toughness, tangential_toughness, toughness_exponent_1, toughness_exponent_2};
+    return {normal_toughness, tangential_toughness, toughness_exponent_1, toughness_exponent_2,
+            second_tangential_toughness};
 }
 
-Toughness Law::toughness(double mixity) const {
-    if (const HostSoftening* given = host()) return given->toughness(mixity);
+bool Law::two_shear_toughnesses() const {
+    if (!(second_tangential_toughness > 0.0 || second_tangential_onset > 0.0 || second_tangential_strength > 0.0) ||
+        host() != nullptr)
+        return false;
+    return total_modes().two_shears() || onset_modes().two_shears();
+}
+
+Toughness Law::toughness(const Mixity& mixity) const {
+    if (const HostSoftening* given = host()) return given->toughness(mixity.shear);
     const double onset = toughness_at(criterion_of_onset(), onset_modes(), mixity);
-    return {onset, std::max(onset, toughness_at(criterion, total_modes(), mixity)), mixity};
+    return {onset, std::max(onset, toughness_at(criterion, total_modes(), mixity)), mixity.shear};
 }
 
 ToughnessSlope Law::toughness_slope(double mixity) const {
@@ -60,7 +69,8 @@ ToughnessSlope Law::toughness_slope(double mixity) const {
 double Law::least_onset() const {
     if (const HostSoftening* given = host()) return std::min(given->toughness(0.0).onset, given->toughness(1.0).onset);
     const Modes modes = onset_modes();
-    return std::min(modes.normal, modes.tangential);
+    const double least = std::min(modes.normal, modes.tangential);
+    return modes.two_shears() ? std::min(least, modes.second_shear) : least;
 }
 
 double Law::onset_bound() const {

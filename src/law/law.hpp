@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The law of an interface at one point: stiffness, a criterion for the toughness at a mixity, a shape of softening.
 //
-// With Y = Y_n + Y_t, Y_c = k_c [u]_c^2 / 2, and onset and total toughness Go, Gc at the mixity B = Y_t/Y, every law
+// With Y = Y_n + Y_t, Y_c = k_c [u]_c^2 / 2, and onset and total toughness Go, Gc at the mixity (mixity.hpp), every law
 // has energetic form: adhesion zeta minimises zeta Y + g(B, zeta) over 0 <= zeta <= zeta_old, where g is convex and
 // decreasing, g(1) = 0, g(0) = Gc.
 //   stored       zeta Y                dissipated   g(zeta)
@@ -20,6 +20,7 @@
 #include <variant>
 
 #include "law/criterion.hpp"
+#include "law/mixity.hpp"
 #include "law/softening/softening.hpp"
 #include "law/softening/toughness.hpp"
 
@@ -33,8 +34,11 @@ struct Law {
     double tangential_onset = 0.0;
     double normal_strength = 0.0;  // s_n, F/L2: instead of the onset, G^o_n = s_n^2/(2 k_n); 0: the onset is given
     double tangential_strength = 0.0;
+    double second_tangential_onset = 0.0;  // along the second tangent of a pair in space; 0: that of the first
+    double second_tangential_strength = 0.0;
     double normal_toughness = 0.0;  // G^c_n
     double tangential_toughness = 0.0;
+    double second_tangential_toughness = 0.0;  // 0: that of the first tangent
     double onset_exponent_1 = 2.0;  // p, q or eta of the onset; the criteria with one exponent read the first
     double onset_exponent_2 = 2.0;
     double toughness_exponent_1 = 2.0;  // likewise of the total toughness
@@ -77,13 +81,16 @@ struct Law {
     bool two_shears() const {
         return second_tangential_stiffness > 0.0 && second_tangential_stiffness != tangential_stiffness;
     }
+    // True if onset or toughness depends on the direction of sliding.
+    bool two_shear_toughnesses() const;
+    // True if the tangents of a pair are axes of its law for either reason.
+    bool has_axes() const { return two_shears() || two_shear_toughnesses(); }
     // Go and Gc as the criterion needs them; not for laws given by the host.
     Modes onset_modes() const;
     Modes total_modes() const;
 
-    // 0 <= mixity <= 1.
-    Toughness toughness(double mixity) const;
-    ToughnessSlope toughness_slope(double mixity) const;  // where infinite, cut off: toughness_slope_at
+    Toughness toughness(const Mixity& mixity) const;
+    ToughnessSlope toughness_slope(double mixity) const;  // at S = 0; where infinite, cut off: toughness_slope_at
     double least_onset() const;                           // min Go of the pure modes
     double onset_bound() const;                           // at most Go at any mixity; 0: of a law of the host
     double least_total() const;                           // least_toughness of Gc; 0: the host gives the law
@@ -100,7 +107,7 @@ struct Law {
     // driving = Y where it is strictly inside, else 0; <= 0.
     double minimiser(const Toughness& t, double driving, double zeta_old) const;
     double slope(const Toughness& t, double driving, double zeta_old) const;
-    // dg/dB at the same zeta.
+    // dg/dB at the same zeta, and at S = 0.
     double dissipated_slope_mixity(double mixity, double zeta) const;
 };
 

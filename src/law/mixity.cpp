@@ -10,4 +10,8 @@ double mode_mixity(double normal, double tangential) {
     return std::min(1.0, tangential / (normal + tangential));
 }
 
+double second_share(double tangential, double second) {
+    return tangential > 0.0 ? std::min(1.0, second / tangential) : 0.0;
+}
+
 }  // namespace delam

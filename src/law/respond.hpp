@@ -14,7 +14,8 @@ struct PointResponse {
     std::array<double, 3> traction;  // zeta k_c u_c, F/L2; the first [dimension] entries
 };
 
-// local_jump: [dimension], the normal part first and >= 0.
+// local_jump: [dimension], the normal part first and >= 0. mixity: B; the share of the second shear is that of the
+// jump.
 PointResponse respond(const Law& law, std::span<const double> local_jump, double mixity, double adhesion_old);
 
 }  // namespace delam

@@ -25,6 +25,8 @@ struct Setting {
     double asymmetry;  // smallest relative asymmetry that must appear; 0: symmetric
     const char* control = "fixed";
     double second = 0.0;  // stiffness of the second shear; the axes are turned by 30 degrees from the load
+    double onset = 0.0, toughness = 0.0;  // of the second shear
+    double path_step = 0.0;  // 1: each step has one part, and no pair unloads between parts; 0: the default
 };
 
 constexpr Setting settings[] = {
@@ -44,6 +46,12 @@ constexpr Setting settings[] = {
     {"two shears", 3, "condensed", "converged", 0.0, 1e-6, "fixed", 3e12},
     {"two shears, variational", 3, "condensed", "variational", 0.0, 0.0, "fixed", 6e12},
     {"two shears, iterated", 3, "iterated", "frozen", 0.0, 0.0, "fixed", 3e12},
+    {"two toughnesses in shear", 3, "condensed", "converged", 0.0, 1e-6, "fixed", 1e13, 30.0, 700.0},
+    {"two toughnesses in shear, along the load", 3, "condensed", "converged", 0.0, 1e-6, "load", 3e12, 25.0, 900.0, 0.9},
+    {"two toughnesses, two stiffnesses", 3, "condensed", "converged", 0.0, 1e-6, "fixed", 3e12, 25.0, 900.0, 1.0},
+    {"more of the onset, less of the toughness", 3, "condensed", "converged", 0.0, 1e-6, "fixed", 3e12, 60.0, 300.0,
+     1.0},
+    {"two toughnesses in shear, frozen", 3, "condensed", "frozen", 0.0, 0.0, "fixed", 3e12, 25.0, 900.0},
 };
 constexpr int setting_count = static_cast<int>(std::size(settings));
 
@@ -66,6 +74,8 @@ Scene strip(const Setting& s) {
         law.normal_onset = 60.0, law.tangential_onset = 80.0, law.tangential_toughness = 210.0;
     law.gradient = s.gradient;
     law.second_tangential_stiffness = s.second;
+    law.second_tangential_onset = s.onset;
+    law.second_tangential_toughness = s.toughness;
     scene.law(0, law);
     const auto pairs = scene.pairs(0);
     std::vector<std::int64_t> notch;
@@ -100,6 +110,7 @@ Scene strip(const Setting& s) {
     scene.text("reduction", s.reduction);
     scene.text("mixity_rule", s.rule);
     scene.text("step_control", s.control);
+    if (s.path_step > 0.0) scene.number("path_step", s.path_step);
     scene.number("damage_tolerance", 1e-11);
     return scene;
 }

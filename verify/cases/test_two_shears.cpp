@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two stiffnesses in shear, along axes of the interface: closed forms of one pair under any jump, a beam that is turned
-// with and without its axes, solvers against each other and against the direct reference, what equal numbers leave as
-// it is, and what is refused.
+// Two stiffnesses, and two toughnesses, in shear, along axes of the interface: closed forms of one pair under any jump,
+// a beam that is turned with and without its axes, solvers against each other and against the direct reference, what
+// equal numbers leave as it is, and what is refused.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -113,8 +113,10 @@ LOOP_TEST(closed_forms_at_any_angle, 0, 12) {
 struct Beam {
     double turned = 0.0, axes = 0.0;
     double first = 125e9, second = 20e9;
+    std::array<double, 2> onset{60.0, 0.0}, toughness{200.0, 0.0};  // of both shears; 0: that of the first
     const char* reduction = "condensed";
     double unit = 1.0;
+    const char* solution = "local";
 };
 
 constexpr double length = 0.06, width = 0.008, arm = 1.5e-3, notch = 0.0151;
@@ -141,10 +143,12 @@ Scene make_beam(const Beam& beam) {
     scene.begin();
     const double area = beam.unit * beam.unit;
     scene.elastic(-1, 75e9 * area, 0.3);
-    LawData law{125e9, beam.first, 100.0, 60.0, 250.0, 200.0, 2.0, 0.0, beam.second};
+    LawData law{125e9, beam.first,  100.0,         beam.onset[0],    250.0, beam.toughness[0], 2.0,
+                0.0,   beam.second, beam.onset[1], beam.toughness[1]};
     for (double* k : {&law.normal_stiffness, &law.tangential_stiffness, &law.second_tangential_stiffness})
         *k *= area * beam.unit;
-    for (double* g : {&law.normal_onset, &law.tangential_onset, &law.normal_toughness, &law.tangential_toughness})
+    for (double* g : {&law.normal_onset, &law.tangential_onset, &law.normal_toughness, &law.tangential_toughness,
+                      &law.second_tangential_onset, &law.second_tangential_toughness})
         *g *= beam.unit;
     scene.law(0, law);
     const auto at = [&](double x, double z) {  // before it is turned
@@ -164,6 +168,7 @@ Scene make_beam(const Beam& beam) {
     scene.drive(middle, {0.0, 0.0, -1.0}, press, std::vector<double>(middle.size(), 1.0));
     scene.text("reduction", beam.reduction);
     scene.text("step_control", "fixed");
+    scene.text("solution", beam.solution);
     scene.number("damage_tolerance", 1e-10);
     return scene;
 }
@@ -232,15 +237,47 @@ TEST(beam_turns_with_its_axes) {
                   "between the axes the beam is as stiff as along one of them");
 }
 
+// The same with onset and toughness of a second shear.
+Beam tough(double turned, double axes, bool exchanged = false) {
+    if (exchanged) return {turned, axes, 20e9, 125e9, {90.0, 60.0}, {420.0, 200.0}};
+    return {turned, axes, 125e9, 20e9, {60.0, 90.0}, {200.0, 420.0}};
+}
+
+TEST(beam_turns_with_its_toughnesses) {
+    const History straight = analysed(tough(0.0, 0.0));
+    cases::expect(straight.dissipated.back() > 0.0, "nothing is damaged: nothing was tested");
+    for (const double angle : {45.0, 90.0})
+        expect_same(analysed(tough(angle * degree, 0.0)), straight, 1e-7, "turned by " + std::to_string(angle));
+    const History exchanged = analysed(tough(0.0, 0.0, true));
+    expect_same(analysed(tough(90.0 * degree, -90.0 * degree)), exchanged, 1e-7, "axes that stay");
+    // The numbers of the other shear alone, without its stiffness, change the beam, and so do axes between those of it.
+    Beam other = tough(0.0, 0.0);
+    std::swap(other.onset[0], other.onset[1]);
+    std::swap(other.toughness[0], other.toughness[1]);
+    cases::expect_below(0.02, apart(analysed(other), straight), "the toughnesses do not differ enough to test them");
+    cases::expect_below(0.02, apart(analysed(tough(0.0, 45.0 * degree)), straight), "axes between those of the beam");
+}
+
+TEST(searched_states_turn) {
+    History found[2];
+    for (const int i : {0, 1}) {
+        Beam beam = tough(i * 45.0 * degree, 20.0 * degree);
+        beam.solution = "energetic";
+        found[i] = analysed(beam);
+    }
+    expect_same(found[1], found[0], 1e-6, "energetic, turned");
+    cases::expect(found[0].dissipated.back() > 0.0, "nothing is damaged: nothing was tested");
+}
+
 TEST(units_change_nothing) {
-    Beam beam{0.0, 30.0 * degree};
+    Beam beam = tough(0.0, 30.0 * degree);
     const History metres = analysed(beam);
     beam.unit = 1e-3;
     expect_same(analysed(beam), metres, 1e-7, "in millimetres");
 }
 
 LOOP_TEST(solvers_agree, 0, 2) {
-    Beam beam{0.0, 30.0 * degree};
+    Beam beam = tough(0.0, 30.0 * degree);
     const History condensed = analysed(beam);
     beam.reduction = loop == 0 ? "iterated" : "feti";
     expect_same(analysed(beam), condensed, 1e-5, beam.reduction);

@@ -144,7 +144,10 @@ void Scene::law(std::int64_t interface_index, const LawData& data) {
     set("toughness_exponent_1", data.exponent);
     set("toughness_exponent_2", data.exponent);
     if (data.gradient > 0.0) set("gradient", data.gradient);
-    if (data.second_tangential_stiffness > 0.0) set("second_tangential_stiffness", data.second_tangential_stiffness);
+    for (const auto& [key, value] : {std::pair("second_tangential_stiffness", data.second_tangential_stiffness),
+                                     std::pair("second_tangential_onset", data.second_tangential_onset),
+                                     std::pair("second_tangential_toughness", data.second_tangential_toughness)})
+        if (value > 0.0) set(key, value);
     require(delam_problem_set_law(problem(), interface_index, raw), "delam_problem_set_law");
     stiffness_[static_cast<std::size_t>(interface_index)] = {data.normal_stiffness, data.tangential_stiffness, false,
                                                              data.second_tangential_stiffness};

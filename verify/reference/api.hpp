@@ -46,6 +46,8 @@ struct LawData {
     double exponent = 2.0;
     double gradient = 0.0;
     double second_tangential_stiffness = 0.0;  // 0: that of the first tangent
+    double second_tangential_onset = 0.0;      // likewise
+    double second_tangential_toughness = 0.0;
 };
 
 // The properties of an interface that matter in a displacement step.

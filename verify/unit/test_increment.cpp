@@ -52,7 +52,7 @@ std::unique_ptr<Case> some_case(std::mt19937& random, int dimension) {
         c->pairs.law.push_back(&law);
         c->pairs.weight.push_back(real(random, 0.5, 2.0));
         c->before.adhesion.push_back(p % 3 == 0 ? 1.0 : real(random, 0.2, 1.0));
-        c->before.mixity.push_back(real(random, 0.1, 0.9));
+        c->before.mixity.shear.push_back(real(random, 0.1, 0.9));
         const double size = std::sqrt(2.0 * law.normal_onset / law.normal_stiffness) * real(random, 0.3, 2.0);
         const double angle = real(random, 0.1, 1.4), turn = dimension == 2 ? 0.0 : real(random, 0.0, 6.28);
         c->jump.push_back(size * std::cos(angle));
@@ -104,7 +104,7 @@ TEST(mixities_lag) {
         const auto other = some_case(random, c->pairs.dimension);
         ConvergedIncrement rule(c->pairs, c->before, c->before.mixity, 1e-6),
             loose(c->pairs, c->before, c->before.mixity, {1e-6, 1.0, 1e3});
-        const std::vector<double> used = rule.memory().used;
+        const PairMixities used = rule.memory().used;
         for (ConvergedIncrement* lagging : {&rule, &loose}) {
             lagging->lag();
             ck_assert(!lagging->observe(c->before.adhesion, other->jump));

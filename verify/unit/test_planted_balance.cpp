@@ -32,7 +32,7 @@ public:
     Result step(const State& before, double time, std::span<const Stepper::Start> also, double stride) {
         Result result = stepper_.step(before, time, also, stride);
         State& next = result.state;
-        if (first_mixity_.empty()) first_mixity_ = next.mixity;
+        if (first_mixity_.shear.empty()) first_mixity_ = next.mixity;
         // Errors of a tenth of the way.
         const bool now = time > 0.55 && time < 0.65;
         if (fault_ == Fault::sign_of_a_reaction && now) next.response.conjugate[0] *= -1.0;
@@ -71,7 +71,7 @@ private:
 
     Stepper& stepper_;
     Fault fault_;
-    std::vector<double> first_mixity_;
+    PairMixities first_mixity_;
 };
 
 }  // namespace

@@ -77,7 +77,7 @@ TEST(names_what_is_not_finite) {
         {"jump of pair 3 ", [](State& s) -> double& { return s.response.jump[7]; }},
         {"force of pair 2 ", [](State& s) -> double& { return s.response.force[4]; }},
         {"adhesion of pair 5 ", [](State& s) -> double& { return s.adhesion[5]; }},
-        {"mixity of pair 0 ", [](State& s) -> double& { return s.mixity[0]; }},
+        {"mixity of pair 0 ", [](State& s) -> double& { return s.mixity.shear[0]; }},
         {"reaction of pattern 'press'", [](State& s) -> double& { return s.response.conjugate[0]; }},
         {"dual force of multiplier 0 ", [](State& s) -> double& { return s.response.multipliers[0]; }},
         {"rigid motion of coefficient 1 ", [](State& s) -> double& { return s.response.rigid[1]; }},

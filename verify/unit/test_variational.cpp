@@ -235,11 +235,11 @@ TEST(swings_end) {
         const std::vector<double> adhesion{0.8};
         int updates = 0;
         for (; updates < 5000; ++updates) {
-            const double b = std::clamp(0.3 + gain * (mixity.memory().used[0] - 0.3), 0.05, 0.45);
+            const double b = std::clamp(0.3 + gain * (mixity.memory().used.shear[0] - 0.3), 0.05, 0.45);
             if (!mixity.observe(adhesion, jump_of(150.0, b))) break;
         }
         ck_assert_msg(updates < 5000, "gain %g: the mixity swings for ever", gain);
-        if (gain > -10.0) ck_assert_double_eq_tol(mixity.memory().used[0], 0.3, 1e-4);
+        if (gain > -10.0) ck_assert_double_eq_tol(mixity.memory().used.shear[0], 0.3, 1e-4);
         ck_assert(mixity.held() == 0 || gain < -10.0);
     }
 }
@@ -255,10 +255,10 @@ TEST(an_oscillating_mixity_settles) {
     ConvergedIncrement mixity(pairs, before, std::vector<double>{0.1}, 1e-6);
     const auto observe = [&](double b) { return mixity.observe(std::vector<double>{0.8}, jump_of(150.0, b)); };
     for (int swing = 0; swing < 6; ++swing) ck_assert(observe(swing % 2 == 0 ? 0.45 : 0.05));
-    const double left = std::abs(mixity.memory().used[0] - 0.48);
+    const double left = std::abs(mixity.memory().used.shear[0] - 0.48);
     ck_assert_double_gt(left, 0.05);
     int updates = 0;
-    while (std::abs(mixity.memory().used[0] - 0.48) > 1e-8 * left && updates < 200) {
+    while (std::abs(mixity.memory().used.shear[0] - 0.48) > 1e-8 * left && updates < 200) {
         observe(0.48);
         ++updates;
     }
@@ -274,12 +274,12 @@ TEST(broken_pairs_keep_theirs) {
     ConvergedIncrement mixity(pairs, before, std::vector<double>{0.1, 0.2}, 1e-6);
     const std::vector<double> jump{1e-5, 1e-5, 1e-5, 1e-5};
     mixity.observe(std::vector<double>{0.0, 0.5}, jump);
-    ck_assert(mixity.memory().used[0] == 0.1);
-    ck_assert_double_eq_tol(mixity.memory().used[1], 0.5, 1e-12);
+    ck_assert(mixity.memory().used.shear[0] == 0.1);
+    ck_assert_double_eq_tol(mixity.memory().used.shear[1], 0.5, 1e-12);
     // Frozen mixities stay, but are compared with those shown: Gc = 250 / sqrt((1-B)^2 + B^2).
     FrozenIncrement frozen(pairs, before, std::vector<double>{0.1, 0.0}, 1e-6);
     frozen.observe(std::vector<double>{0.0, 0.5}, jump);
-    ck_assert(frozen.memory().used[1] == 0.0);
+    ck_assert(frozen.memory().used.shear[1] == 0.0);
     State state = before;
     state.adhesion = {1.0, 0.0};
     frozen.record(state);

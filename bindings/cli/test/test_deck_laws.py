@@ -92,16 +92,53 @@ for evolution, pattern in (
         (displacements + "0., 0.\n1., 1.\n", "a displacement > 0")):
     expect_error(delam("import", write(deck(evolution), "deck.inp")), 2, r"deck\.inp:\d+: \*DAMAGE EVOLUTION: ", pattern)
 
-# Two directions of sliding: the line and the keyword of what differs.
 ONE = "*DAMAGE EVOLUTION, TYPE=ENERGY\n1.,\n"
+# What is wrong in one law is said together.
+answer = delam("import", write(deck(ONE.replace("1.,", "-1.,"), stiffness="-1000., 400., 400.", strengths="1.5, 0., 2."), "deck.inp"))
+expect_error(answer, 2, "stiffness -1000: must be > 0", "QUADS 0: must be > 0", "toughness -1: must be > 0")
 SHEARS = "1000., 400., 225."  # with strengths 2 and 1.5, damage begins at the same energy in both
-for others, why in (({"stiffness": SHEARS}, "begin at the same energy"), ({"strengths": "1.5, 2., 3."}, "write the same twice")):
-    text = deck(ONE, solid=True, **others)
-    line = 1 + text.splitlines().index("*DAMAGE INITIATION, CRITERION=QUADS")
-    expect_error(delam("import", write(text, "deck.inp")), 2,
-                 rf"deck\.inp:{line}: \*DAMAGE INITIATION: .* in the two directions of sliding", why)
-    code, _, said = delam("import", write(deck(ONE, **others), "deck.inp"))
-    expect(code == 0, f"in the plane there is one direction: {said}")
+POWER = "*DAMAGE EVOLUTION, TYPE=ENERGY, MIXED MODE BEHAVIOR=POWER LAW, POWER=1.\n1., 2., 3.\n"
+
+
+def numbers_of(scene):
+    """The numbers of the only law of a scene."""
+    return {key: float(value) for key, value in re.findall(r"^(\w+) = ([-+.\de]+)$", scene.split("[[laws]]")[1], re.M)}
+
+
+def expect_numbers(what, text, wanted, missing=()):
+    code, scene, said = delam("import", write(text, "deck.inp"))
+    expect(code == 0, f"{what}: {said}")
+    found = numbers_of(scene)
+    for key, value in wanted.items():
+        expect(math.isclose(found.get(key, 0.0), value, rel_tol=1e-12), f"{what}: {key} is {value} in\n{scene}")
+    for key in missing:
+        expect(key not in found, f"{what}: no {key} in\n{scene}")
+    expect(("shear_axis" in scene) == any("second" in key for key in wanted), f"{what}: the axis of the first shear")
+
+
+SECOND = ("second_tangential_stiffness", "second_tangential_onset", "second_tangential_strength",
+          "second_tangential_toughness")
+expect_numbers("other stiffnesses", deck(ONE, stiffness=SHEARS, solid=True),
+               {SECOND[0]: 225.0, "tangential_strength": 2.0, SECOND[2]: 2.0}, SECOND[3:])
+expect_numbers("other strengths", deck(ONE, strengths="1.5, 2., 3.", solid=True),
+               {"tangential_strength": 2.0, SECOND[2]: 3.0}, (SECOND[0], SECOND[3]))
+expect_numbers("a strain of the third mode", deck(ONE, strengths="0.0015, 0.005, 0.02", initiation="QUADE", solid=True),
+               {"tangential_strength": 2.0, SECOND[2]: 8.0}, (SECOND[0], SECOND[3]))
+expect_numbers("other toughnesses", deck(POWER, solid=True), {"tangential_toughness": 2.0, SECOND[3]: 3.0}, SECOND[:3])
+expect_numbers("the toughness of the first shear", deck(POWER.replace("POWER LAW", "BK"), solid=True),
+               {"tangential_toughness": 2.0}, SECOND)
+expect_numbers("displacements", deck("*DAMAGE EVOLUTION, TYPE=DISPLACEMENT\n1.,\n", strengths="1.5, 2., 3.", solid=True),
+               {"tangential_toughness": 2.0 * (2.0 / K_S + 1) / 2, SECOND[3]: 3.0 * (3.0 / K_S + 1) / 2}, SECOND[:2])
+for what, text, words in (("POWER=1", POWER, None), ("POWER=2", POWER.replace("POWER=1.", "POWER=2."), "toughness with exponent 1"),
+                          ("equal numbers", POWER.replace("POWER=1.", "POWER=2.").replace("3.", "2."), None)):
+    said = delam("import", write(deck(text, solid=True), "deck.inp"))[2]
+    expect(("between the two directions of sliding" in said) == bool(words) and (words or "") in said, f"{what}: {said}")
+for what, text in (("strengths", deck(ONE, strengths="1.5, 2., 3.")), ("toughnesses", deck(POWER)),
+                   ("stiffnesses", deck(ONE, stiffness=SHEARS))):
+    expect_numbers(f"in the plane there is one direction: {what}", text, {"tangential_strength": 2.0}, SECOND)
+table = HEAD.replace("TRACTION", "ENERGY") + "1., 0.\n1., 1.\n"
+expect_error(delam("import", write(deck(table, strengths="1.5, 2., 3.", solid=True), "deck.inp")), 2, r"deck\.inp:\d+: ",
+             "without a table of modes")
 
 # Stiffnesses of both shears become keys of the law, whose first shear is along x as in the deck.
 TWICE = deck(ONE, stiffness=SHEARS, strengths="1.5, 2., 1.5", solid=True)
@@ -131,8 +168,23 @@ for turned, along, across in ((False, 0.6, 0.8), (True, 0.8, 0.6)):
         last = list(csv.DictReader(file))[-1]
     for column, value in (("stored_interface", zeta * ENERGY), ("dissipated", spent)):
         expect(math.isclose(float(last[column]), value, rel_tol=1e-9), f"{column} {last[column]} instead of {value}")
-text = deck("*DAMAGE EVOLUTION, TYPE=DISPLACEMENT\n1.,\n", stiffness=SHEARS, strengths="1.5, 2., 1.5", solid=True)
-expect_error(delam("import", write(text, "deck.inp")), 2, r"deck\.inp:\d+: ", "two stiffnesses in shear")
+# The same block, with another strength and toughness of the second shear: (Y_1/G_1 + Y_2/G_2)^-1 of both.
+text = deck(POWER, stiffness=SHEARS, strengths="1.5, 2., 3.", solid=True)
+moved = "".join(f"{node}, 1, 3\n" for node in range(1, 9)) + "".join(
+    f"{node}, 1, 1, {0.6 * slip!r}\n{node}, 2, 2, {0.8 * slip!r}\n{node}, 3, 3\n" for node in range(11, 19))
+share = 225 * 0.64 / (400 * 0.36 + 225 * 0.64)
+onset, total = 1 / ((1 - share) / 0.005 + share / (3.0 ** 2 / 450)), 1 / ((1 - share) / 2.0 + share / 3.0)
+zeta = (total * math.sqrt(onset / ENERGY) - onset) / (total - onset)
+spent = total * onset * (1 - zeta) / (onset + (total - onset) * zeta)
+where, out = os.path.join(folder(), "scene.toml"), os.path.join(folder(), "out")
+for words in (("import", write(text.replace("*BOUNDARY\n1, 1, 3\n2, 2, 3\n", "*BOUNDARY\n" + moved), "deck.inp"), "--out", where),
+              ("run", where, "--out", out)):
+    code, _, said = delam(*words)
+    expect(code == 0, f"{words[0]}: {said}")
+with open(os.path.join(out, "history.csv"), encoding="utf-8", newline="") as file:
+    last = list(csv.DictReader(file))[-1]
+for column, value in (("stored_interface", zeta * ENERGY), ("dissipated", spent)):
+    expect(math.isclose(float(last[column]), value, rel_tol=1e-9), f"{column} {last[column]} instead of {value}")
 for card, pattern in (("", "\"TURNED\" is not there"), ("*ORIENTATION, NAME=TURNED, SYSTEM=CYLINDRICAL\n0., 0., 0., 0., 0., 1.\n",
                                                        "differs from element to element")):
     text = TWICE.replace("*COHESIVE SECTION", card + "*COHESIVE SECTION, ORIENTATION=TURNED")

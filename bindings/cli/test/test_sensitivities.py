@@ -99,6 +99,11 @@ compare("in space", SPACE, TOUGH[:2])
 SHEARED = SPACE.replace("\ntangential_stiffness = 1e13", "\ntangential_stiffness = 1e13\nsecond_tangential_stiffness = 3e12")
 SHEARED = SHEARED.replace('law = "glue"\n', 'law = "glue"\nshear_axis = [0.8, 0.6, 0]\n')
 compare("two shears", SHEARED, ["tangential_stiffness", "second_tangential_stiffness", "tangential_toughness"])
+TWO = SHEARED.replace("\ntangential_onset = 40.0", "\ntangential_onset = 40.0\nsecond_tangential_onset = 25.0").replace(
+    "\ntangential_toughness = 500.0", "\ntangential_toughness = 500.0\nsecond_tangential_toughness = 800.0")
+SECOND = ["tangential_toughness", "second_tangential_toughness", "second_tangential_onset", "second_tangential_stiffness"]
+compare("two toughnesses in shear", TWO, SECOND)
+compare("two toughnesses in shear, of the step before", TWO, SECOND[:2], ["solver.mixity_rule=frozen"])
 compare("sliding", changed("end = 2.0\nsteps = 20", "end = 2.0\nsteps = 20\n[solver]\ndamage_tolerance = 1e-11"),
         ["tangential_toughness", "tangential_onset"], jumps=True)
 
@@ -117,6 +122,8 @@ refused(['output.sensitivities=["laws[1].normal_toughness"]'], r"output\.sensiti
 refused(['output.sensitivities=["normal_toughness"]'], r"laws\[0\]\.normal_toughness, for example")
 refused(['output.sensitivities=["laws[0].criterion"]'], "is no number of a law")
 refused(['output.sensitivities=["laws[0].gradient"]'], "gradient")
+refused(['output.sensitivities=["laws[0].second_tangential_toughness"]'], "equal numbers, which are one number",
+        text=TWO.replace("second_tangential_toughness = 800.0", "second_tangential_toughness = 500.0"))
 refused(['output.sensitivities=["laws[0].plateau"]'], "plateau")
 refused(['output.sensitivities=["laws[0].normal_strength"]'], "normal_strength", "not 0")
 refused(['output.sensitivities=["laws[0].normal_toughness"]', "laws[0].gradient=1e-3"], "gradient term")

@@ -64,6 +64,21 @@ expect(apart(history(SPACE.replace('name = "lower"', 'name = "lower"\nangle = 90
 expect(apart(history(SPACE.replace('name = "upper"', 'name = "upper"\nangle = 90', 1)), first) < 1e-9,
        "the upper layer has no say")
 
+# Onset and toughness of the second shear: an exchange of the axes exchanges them.
+TWO = SPACE.replace("\ntangential_onset = 40.0", "\ntangential_onset = 40.0\nsecond_tangential_onset = 15.0").replace(
+    "\ntangential_toughness = 500.0", "\ntangential_toughness = 500.0\nsecond_tangential_toughness = 900.0")
+TURNED = SPACE.replace("\ntangential_stiffness = 1e13\nsecond_tangential_stiffness = 2e12",
+                       "\ntangential_stiffness = 2e12\nsecond_tangential_stiffness = 1e13").replace(
+    "\ntangential_onset = 40.0", "\ntangential_onset = 15.0\nsecond_tangential_onset = 40.0").replace(
+    "\ntangential_toughness = 500.0", "\ntangential_toughness = 900.0\nsecond_tangential_toughness = 500.0")
+two, across = history(TWO), history(TWO.replace('law = "glue"', AXIS + "[0, 1, 0]"))
+expect(0 < apart(two, first) < 1e-3, f"nearly all slides along the first axis, whose numbers stay: {apart(two, first):.1e}")
+expect(apart(across, second) > 0.01, "the numbers of the second shear decide where the load slides along it")
+expect(apart(history(TURNED), across) < 1e-9, "a quarter turn exchanges onsets and toughnesses")
+equal = TWO.replace("second_tangential_onset = 15.0", "second_tangential_onset = 40.0").replace(
+    "second_tangential_toughness = 900.0", "second_tangential_toughness = 500.0")
+expect(history(equal) == history(SPACE), "equal onsets and toughnesses are one number")
+
 expect_error(delam("check", write(along("[0, 0, 1]"))), 2, r"interfaces\[0\]", "is the normal there")
 expect_error(delam("check", write(along("[0, 0, 0]"))), 2, r"interfaces\[0\]\.shear_axis", "length 0")
 expect_error(delam("check", write(along("[1, 0]"))), 2, r"interfaces\[0\]\.shear_axis")
@@ -71,4 +86,10 @@ expect_error(delam("check", write(PLANE)), 2, "one direction of sliding")
 expect_error(delam("check", write(PLANE.replace('law = "glue"', AXIS + "[1, 0, 0]"))), 2, "shear_axis", "3D")
 strength = SPACE.replace("tangential_onset = 40.0", "tangential_strength = 2.8e7")
 expect_error(delam("check", write(strength)), 2, "tangential_strength", "give tangential_onset")
+code, _, error = delam("check", write(strength.replace("second_", "second_tangential_strength = 9e6\nsecond_", 1)))
+expect(code == 0, f"two strengths: {error}")
+expect_error(delam("check", write(TWO.replace("second_tangential_onset = 15.0", "second_tangential_onset = 15.0\n"
+                                              "second_tangential_strength = 9e6"))), 2, "give one")
+variational = TWO.replace("[solver]", '[solver]\nmixity_rule = "variational"')
+expect_error(delam("check", write(variational)), 2, "two onsets or toughnesses in shear", "use mixity_rule = frozen or converged")
 finish()

@@ -19,6 +19,7 @@ std::vector<double> parts_tangent(Stepper& stepper, std::span<const Pattern> pat
     by.conjugate.assign(count * count, 0.0);
     by.adhesion.assign(count * pairs, 0.0);
     by.mixity.assign(count * pairs, 0.0);
+    by.second.assign(count * pairs, 0.0);
     State at = before;
     for (const StepPart& part : parts) {
         const double share = (part.time - before.time) / (parts.back().time - before.time);

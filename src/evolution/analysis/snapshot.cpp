@@ -25,8 +25,8 @@ constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on
 // released energy in the ledger. 10: another zone of the condensed operator, which begins anew after an older version.
 // 11: energies of candidates for the next search. 12: since when bodies are free. 13: how the growth of a step went on.
 // 14: what its single pairs released. 15: whether its steps are taken whole. 16: jumps before the last part of a step.
-// 17: where the bodies of a step have buckled.
-constexpr std::uint32_t version = 17, oldest = 5;
+// 17: where the bodies of a step have buckled. 18: shares of the second shear.
+constexpr std::uint32_t version = since_second_shares, oldest = 5;
 constexpr std::int64_t most_steps = std::int64_t{1} << 53;
 // Hash and checksum of a larger file are compared piece by piece, before memory is taken for all of it.
 constexpr std::uint64_t largest_unchecked = std::uint64_t{1} << 20;
@@ -43,7 +43,8 @@ void check(const State& state, const Solver& solver, std::uint32_t found_version
     const std::size_t last = state.jump_before.size();
     if (!sound.sizes || (last != 0 && last != state.response.jump.size()))
         fail(DELAM_ERROR_SNAPSHOT, "snapshot has arrays of other sizes than this solver");
-    for (const auto* fractions : {&state.adhesion, &state.mixity, &state.mixity_before})
+    for (const auto* fractions : {&state.adhesion, &state.mixity.shear, &state.mixity.second,
+                                  &state.mixity_before.shear, &state.mixity_before.second})
         for (const double v : *fractions)
             if (!(v >= 0.0 && v <= 1.0))
                 fail(DELAM_ERROR_SNAPSHOT, "snapshot holds an adhesion or mixity of ", v, ", allowed: 0 to 1");
@@ -248,9 +249,10 @@ void skip_head(Reader& r, const Solver& solver) {
 }  // namespace
 
 std::vector<std::uint8_t> save(const Solver& solver) {
-    Writer w(version);
+    const bool two_shears = solver.stepper().pairs().two_shears();
+    Writer w(two_shears ? version : since_second_shares - 1);
     w.item(magic);
-    w.item(version);
+    w.item(w.version());
     w.item(solver.scene_hash());
     write_stage(w, solver);
     write_histories(w, solver);

@@ -8,14 +8,12 @@
 #include "base/numbers.hpp"
 #include "law/driving.hpp"
 #include "law/law_parameters.hpp"
-#include "law/mixity.hpp"
 
 namespace delam {
 
 namespace {
 
 constexpr double relative_step = 1e-6;     // of a parameter: differences of the law alone, which is smooth there
-constexpr double mixity_step = 1e-6;       // of the derivative by B
 constexpr double singular_damage = 1e-13;  // as of the step tangent
 
 double value_of(const Law& law, const std::string& key) {
@@ -36,20 +34,29 @@ Law changed(const Law& law, const std::string& key, double value) {
     return out;
 }
 
+// Equal numbers of both shears are one number in all directions of sliding, and others belong to axes (criterion.hpp):
+// between the two, there is no derivative.
+void require_same_axes(const Law& law, const Law& more, const std::string& key) {
+    if (more.onset_modes().two_shears() == law.onset_modes().two_shears() &&
+        more.total_modes().two_shears() == law.total_modes().two_shears())
+        return;
+    fail(DELAM_ERROR_ARGUMENT, "key '", key,
+         "': onset or toughness is given for both shears with equal numbers, which are one number and have no "
+         "derivative one by one: leave second_tangential_onset, second_tangential_strength or "
+         "second_tangential_toughness out, or give it another value");
+}
+
 // The law at one pair; its derivative by p is (of(more) - of(less)) / difference.
 struct AtPair {
     std::span<const double> jump;
-    double zeta, mixity;
+    double zeta;
+    Mixity mixity;
     bool follows;  // the mixity is that of the jump
     double residual(const Law& law) const {
         const Driving y = driving_energy(law, jump);
-        const double b = follows ? mode_mixity(y.normal, y.tangential) : mixity;
-        return y.total() - law.driving(law.toughness(b), zeta);
+        return y.total() - law.driving(law.toughness(follows ? y.mixity() : mixity), zeta);
     }
-    double shown(const Law& law) const {
-        const Driving y = driving_energy(law, jump);
-        return mode_mixity(y.normal, y.tangential);
-    }
+    Mixity shown(const Law& law) const { return driving_energy(law, jump).mixity(); }
 };
 
 // The derivative by one parameter.
@@ -67,8 +74,8 @@ public:
           dim_(index(pairs_.dimension)),
           largest_(largest_driving(pairs_, state_.response.jump)) {}
 
-    // at_rest: dzeta of pairs that do not damage, mixity: dB before the step, [pairs] both.
-    void find(std::span<const double> at_rest, std::span<const double> mixity) {
+    // at_rest: dzeta of pairs that do not damage, mixity: dB and dS before the step, [pairs] both.
+    void find(std::span<const double> at_rest, const PairMixities& mixity) {
         const Response moved = linearised_.answer(patterns_, forces(at_rest));
         jump_.assign(moved.jump.size(), 0.0);
         for (std::size_t r = 0; r < jump_.size(); ++r) jump_[r] = -moved.jump[r];
@@ -99,7 +106,7 @@ public:
     bool known() const { return known_; }
     const std::vector<double>& conjugate() const { return conjugate_; }
     const std::vector<double>& adhesion() const { return adhesion_; }
-    const std::vector<double>& mixity() const { return mixity_; }
+    const PairMixities& mixity() const { return mixity_; }
 
 private:
     std::span<const double> local(std::size_t pair) const {
@@ -133,17 +140,15 @@ private:
     }
 
     // r: of Y - D by the parameter and, where the mixity is that of the step before, by that.
-    double residual(std::size_t pair, std::span<const double> mixity) const {
+    double residual(std::size_t pair, const PairMixities& mixity) const {
         const Law& law = *pairs_.law[pair];
         const bool follows = step_->in_parts() && tells(pair);
         const AtPair at{local(pair), state_.adhesion[pair], state_.mixity[pair], follows};
         double r = by_parameter(pair, [&](const Law& of) { return at.residual(of); });
-        if (!follows && pairs_.mixed(pair) && mixity[pair] != 0.0) {
-            const double below = std::max(0.0, at.mixity - mixity_step), above = std::min(1.0, at.mixity + mixity_step);
-            r -= mixity[pair] *
-                 (law.driving(law.toughness(above), at.zeta) - law.driving(law.toughness(below), at.zeta)) /
-                 (above - below);
-        }
+        if (follows || !pairs_.mixed(pair)) return r;
+        const auto [by_shear, by_second] = mixity[pair];
+        if (by_shear != 0.0) r -= driving_by_shear(law, at.mixity, at.zeta, by_shear);
+        if (by_second != 0.0) r -= driving_by_second(law, at.mixity, at.zeta, by_second);
         return r;
     }
 
@@ -154,19 +159,27 @@ private:
         for (std::size_t p = 0; p < patterns_; ++p) conjugate_[p] -= answer.conjugate[p] * dzeta;
     }
 
-    // dB of the mode that the jumps show, with dB/dj as in the step tangent.
-    void find_mixity(std::span<const double> before) {
-        mixity_.assign(before.begin(), before.end());
+    // dB and dS of the mode that the jumps show, with dB/dj and dS/dj as in the step tangent.
+    void find_mixity(const PairMixities& before) {
+        mixity_ = before;
         for (std::size_t p = 0; p < mixity_.size(); ++p) {
             if (pairs_.law[p] == nullptr || !tells(p)) continue;
             const Law& law = *pairs_.law[p];
             const std::span<const double> jump = local(p);
             const Driving y = driving_energy(law, jump);
-            const double b = mode_mixity(y.normal, y.tangential);
-            const AtPair at{jump, state_.adhesion[p], b, true};
-            mixity_[p] = by_parameter(p, [&](const Law& of) { return at.shown(of); });
+            const auto [b, second] = y.mixity();
+            const AtPair at{jump, state_.adhesion[p], {b, second}, true};
+            double by_shear = by_parameter(p, [&](const Law& of) { return at.shown(of).shear; });
             for (std::size_t c = 0; c < dim_; ++c)
-                mixity_[p] += (c == 0 ? -b : 1.0 - b) * law.stiffness(c) * jump[c] / y.total() * jump_[p * dim_ + c];
+                by_shear += (c == 0 ? -b : 1.0 - b) * law.stiffness(c) * jump[c] / y.total() * jump_[p * dim_ + c];
+            double by_second = 0.0;
+            if (law.two_shear_toughnesses() && y.tangential > 0.0) {
+                by_second = by_parameter(p, [&](const Law& of) { return at.shown(of).second; });
+                for (std::size_t c = 1; c < dim_; ++c)
+                    by_second += (c == 1 ? -second : 1.0 - second) * law.stiffness(c) * jump[c] / y.tangential *
+                                 jump_[p * dim_ + c];
+            }
+            mixity_.set(p, {by_shear, by_second});
         }
     }
 
@@ -179,7 +192,8 @@ private:
     std::size_t patterns_, dim_;
     double largest_;
     bool known_ = true;
-    std::vector<double> jump_, conjugate_, adhesion_, mixity_;
+    std::vector<double> jump_, conjugate_, adhesion_;
+    PairMixities mixity_;
 };
 
 }  // namespace
@@ -204,6 +218,7 @@ FollowedParameter followed_parameter(const Problem& problem, std::span<const std
         law_of[index(i)] = static_cast<std::int64_t>(out.more.size());
         out.more.push_back(changed(*law, key, value * (1.0 + relative_step)));
         out.less.push_back(changed(*law, key, value * (1.0 - relative_step)));
+        require_same_axes(*law, out.more.back(), key);
     }
     out.difference = value * (1.0 + relative_step) - value * (1.0 - relative_step);
     for (std::size_t i = 0; i < problem.interfaces.size(); ++i) {
@@ -233,7 +248,7 @@ std::vector<double> by_loads(const Sensitivity& by, std::size_t patterns) {
 }
 
 Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter> parameters,
-                        std::span<const Pattern> patterns, const StepRule* step, const std::vector<double>* mixity) {
+                        std::span<const Pattern> patterns, const StepRule* step, const Sensitivity* begun_with) {
     const Sensitivity none, &before = step != nullptr ? step->before().sensitivity : none;
     const State& state = linearised.state();
     const std::size_t pairs = state.adhesion.size();
@@ -250,9 +265,11 @@ Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter
         return by.empty() ? 0.0 : by[k * pairs + p];
     };
     for (std::size_t k = 0; k < parameters.size(); ++k) {
-        std::vector<double> at_rest(pairs, 0.0), begun(pairs, 0.0);
+        std::vector<double> at_rest(pairs, 0.0);
+        PairMixities begun(std::vector<double>(pairs, 0.0), std::vector<double>(pairs, 0.0));
+        const Sensitivity& first = begun_with != nullptr ? *begun_with : before;
         for (std::size_t p = 0; p < pairs && step != nullptr; ++p) {
-            begun[p] = of(mixity != nullptr ? *mixity : before.mixity, k, p);
+            begun.set(p, {of(first.mixity, k, p), of(first.second, k, p)});
             if (active[p] == 0 && state.adhesion[p] > 0.0 && state.adhesion[p] == step->adhesion_before()[p])
                 at_rest[p] = of(before.adhesion, k, p);
         }
@@ -261,7 +278,8 @@ Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter
         if (!by.known() && k == 0) out.unknown += static_cast<std::int64_t>(damaging.directions.size());
         out.conjugate.insert(out.conjugate.end(), by.conjugate().begin(), by.conjugate().end());
         out.adhesion.insert(out.adhesion.end(), by.adhesion().begin(), by.adhesion().end());
-        out.mixity.insert(out.mixity.end(), by.mixity().begin(), by.mixity().end());
+        out.mixity.insert(out.mixity.end(), by.mixity().shear.begin(), by.mixity().shear.end());
+        out.second.insert(out.second.end(), by.mixity().second.begin(), by.mixity().second.end());
     }
     return out;
 }

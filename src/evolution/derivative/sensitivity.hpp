@@ -2,8 +2,9 @@
 // Derivatives of an analysis by parameters of the laws, followed step by step, and of a step in parts by its loads.
 //
 // At the end of a step the bodies and springs are at rest, and each pair that damages satisfies Y(j) = D(B, zeta)
-// (step_tangent.hpp). Both depend on a parameter p by the stiffness and the toughness of the law. With dzeta given for
-// the pairs that do not damage (as before the step; 0 if debonded), the forces of the springs change at fixed jumps by
+// (step_tangent.hpp), with D(B, S, zeta) where the law has two toughnesses in shear. Both depend on a parameter p by
+// the stiffness and the toughness of the law. With dzeta given for the pairs that do not damage (as before the step; 0
+// if debonded), the forces of the springs change at fixed jumps by
 //
 //   F = w zeta dk j + sum over pairs at rest of v dzeta
 //
@@ -47,10 +48,9 @@ std::vector<FollowedParameter> followed_loads(std::size_t patterns, std::size_t 
 std::vector<double> by_loads(const Sensitivity& by, std::size_t patterns);
 
 // Returns the derivatives of the state that the tangent has been made for. step: the increment that ended in it; null:
-// it is elastic, without any damage since the initial state. mixity: derivatives of the mixities with which the step
-// began, [parameters][pairs]; null: they are those of the state before.
+// it is elastic, without any damage since the initial state. begun: derivatives with those of the mixities with which
+// the step began; null: they are those of the state before.
 Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter> parameters,
-                        std::span<const Pattern> patterns, const StepRule* step,
-                        const std::vector<double>* mixity = nullptr);
+                        std::span<const Pattern> patterns, const StepRule* step, const Sensitivity* begun = nullptr);
 
 }  // namespace delam

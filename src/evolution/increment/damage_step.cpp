@@ -5,9 +5,13 @@
 
 #include "base/numbers.hpp"
 #include "evolution/increment/coupled_damage.hpp"
-#include "law/mixity.hpp"
 
 namespace delam {
+
+bool PairLaws::two_shears() const {
+    return std::any_of(law.begin(), law.end(),
+                       [](const Law* own) { return own != nullptr && own->two_shear_toughnesses(); });
+}
 
 Driving driving_energy(const PairLaws& pairs, std::size_t pair, std::span<const double> jump) {
     const auto dim = index(pairs.dimension);
@@ -21,8 +25,13 @@ double largest_driving(const PairLaws& pairs, std::span<const double> jump) {
     return largest;
 }
 
-std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump, std::span<const double> known) {
-    std::vector<double> b(known.begin(), known.end());
+PairMixities opening(const PairLaws& pairs) {
+    const std::size_t count = pairs.law.size();
+    return {std::vector<double>(count, 0.0), std::vector<double>(pairs.two_shears() ? count : 0, 0.0)};
+}
+
+PairMixities mixities(const PairLaws& pairs, std::span<const double> jump, const PairMixities& known) {
+    PairMixities b = known;
     bool any = false;
     for (std::size_t p = 0; p < b.size() && !any; ++p) any = pairs.mixed(p);
     if (!any) return b;
@@ -30,7 +39,7 @@ std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump
     for (std::size_t p = 0; p < b.size(); ++p) {
         if (!pairs.mixed(p)) continue;
         const Driving y = driving_energy(pairs, p, jump);
-        if (tells_mixity(*pairs.law[p], y, largest)) b[p] = mode_mixity(y.normal, y.tangential);
+        if (tells_mixity(*pairs.law[p], y, largest)) b.set(p, y.mixity());
     }
     return b;
 }
@@ -55,7 +64,7 @@ std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const doub
     return s;
 }
 
-std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double> mixity) {
+std::vector<Toughness> toughnesses(const PairLaws& pairs, const PairMixities& mixity) {
     std::vector<Toughness> t(mixity.size(), Toughness{0.0, 0.0});
     for (std::size_t p = 0; p < t.size(); ++p) {
         if (pairs.law[p] == nullptr) continue;
@@ -112,7 +121,7 @@ double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, st
     return sum + gradient_energy(pairs, adhesion);
 }
 
-double stored_linear(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion) {
+double stored_linear(const PairLaws& pairs, const PairMixities& mixity, std::span<const double> adhesion) {
     double sum = 0.0;
     for (std::size_t p = 0; p < adhesion.size(); ++p)
         if (pairs.law[p] != nullptr && adhesion[p] > 0.0 && adhesion[p] < 1.0)  // f(0) = f(1) = 0
@@ -136,7 +145,7 @@ double dissipation_with(const PairLaws& pairs, std::span<const double> adhesion_
 
 }  // namespace
 
-double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+double dissipation(const PairLaws& pairs, const PairMixities& mixity, std::span<const double> adhesion_old,
                    std::span<const double> adhesion) {
     return dissipation_with(pairs, adhesion_old, adhesion,
                             [&](std::size_t p) { return pairs.toughness(p, mixity[p]); });
@@ -147,7 +156,7 @@ double dissipation(const PairLaws& pairs, std::span<const Toughness> toughness, 
     return dissipation_with(pairs, adhesion_old, adhesion, [&](std::size_t p) { return toughness[p]; });
 }
 
-double dissipation_linear(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+double dissipation_linear(const PairLaws& pairs, const PairMixities& mixity, std::span<const double> adhesion_old,
                           std::span<const double> adhesion) {
     double sum = 0.0;
     for (std::size_t p = 0; p < adhesion.size(); ++p)

@@ -5,8 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "law/mixity.hpp"
-
 namespace delam {
 
 namespace {
@@ -51,10 +49,10 @@ private:
     std::array<double, 3> from_{}, along_{}, bend_{}, jump_{};
 };
 
-PathEnergy integrate(const PairLaws& pairs, std::size_t pair, const PairPath& path, Curve curve, double mixity) {
+PathEnergy integrate(const PairLaws& pairs, std::size_t pair, const PairPath& path, Curve curve, const Mixity& mixity) {
     const Law& law = *pairs.law[pair];
     const auto toughness_at = [&](const Driving& y) {
-        return pairs.toughness(pair, tells_mixity(law, y, 0.0) ? mode_mixity(y.normal, y.tangential) : mixity);
+        return pairs.toughness(pair, tells_mixity(law, y, 0.0) ? y.mixity() : mixity);
     };
     PathEnergy sum;
     Toughness before = toughness_at(driving_energy(law, curve.at(0.0)));
@@ -79,13 +77,12 @@ PathEnergy integrate(const PairLaws& pairs, std::size_t pair, const PairPath& pa
 }
 
 // Returns the dissipated energy by the mixities of the two states alone.
-double of_the_ends(const PairLaws& pairs, std::size_t pair, const PairPath& path, double mixity) {
+double of_the_ends(const PairLaws& pairs, std::size_t pair, const PairPath& path, const Mixity& mixity) {
     const Law& law = *pairs.law[pair];
     double sum = 0.0;
     for (const std::span<const double> jump : {path.from, path.to}) {
         const Driving y = driving_energy(law, jump);
-        const Toughness t =
-            pairs.toughness(pair, tells_mixity(law, y, 0.0) ? mode_mixity(y.normal, y.tangential) : mixity);
+        const Toughness t = pairs.toughness(pair, tells_mixity(law, y, 0.0) ? y.mixity() : mixity);
         sum += 0.5 * (law.dissipated(t, path.adhesion_to) - law.dissipated(t, path.adhesion_from));
     }
     return sum;
@@ -93,7 +90,7 @@ double of_the_ends(const PairLaws& pairs, std::size_t pair, const PairPath& path
 
 }  // namespace
 
-PathEnergy path_energy(const PairLaws& pairs, std::size_t pair, const PairPath& path, double mixity) {
+PathEnergy path_energy(const PairLaws& pairs, std::size_t pair, const PairPath& path, const Mixity& mixity) {
     if (!pairs.mixed(pair)) {
         const Law& law = *pairs.law[pair];
         const Toughness t = pairs.toughness(pair, mixity);
@@ -114,21 +111,21 @@ PathEnergy path_energy(const PairLaws& pairs, std::size_t pair, const PairPath& 
 }
 
 // Between the mixities of the two jumps the toughness takes every value between theirs.
-double path_mixity(const PairLaws& pairs, std::size_t pair, std::span<const double> from, std::span<const double> to,
-                   double mixity) {
+Mixity path_mixity(const PairLaws& pairs, std::size_t pair, std::span<const double> from, std::span<const double> to,
+                   const Mixity& mixity) {
     const Law& law = *pairs.law[pair];
     const auto shown = [&](std::span<const double> jump) {
         const Driving y = driving_energy(law, jump);
-        return tells_mixity(law, y, 0.0) ? mode_mixity(y.normal, y.tangential) : mixity;
+        return tells_mixity(law, y, 0.0) ? y.mixity() : mixity;
     };
-    double low = shown(from), high = shown(to);
+    Mixity low = shown(from), high = shown(to);
     if (!pairs.mixed(pair) || low == high) return high;
     const double wanted = path_energy(pairs, pair, {{}, from, to, 1.0, 0.0}, mixity).dissipated;
-    const auto excess = [&](double b) { return pairs.toughness(pair, b).total - wanted; };
+    const auto excess = [&](const Mixity& b) { return pairs.toughness(pair, b).total - wanted; };
     const bool rising = excess(low) < 0.0;
     if (rising == (excess(high) < 0.0)) return std::abs(excess(low)) < std::abs(excess(high)) ? low : high;
     for (int i = 0; i < mixity_halvings; ++i) {
-        const double middle = 0.5 * (low + high);
+        const Mixity middle = 0.5 * (low + high);
         ((excess(middle) < 0.0) == rising ? low : high) = middle;
     }
     return 0.5 * (low + high);

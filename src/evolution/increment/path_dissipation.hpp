@@ -31,10 +31,10 @@ struct PairPath {
 };
 
 // mixity: used where the jump defines none.
-PathEnergy path_energy(const PairLaws& pairs, std::size_t pair, const PairPath& path, double mixity);
+PathEnergy path_energy(const PairLaws& pairs, std::size_t pair, const PairPath& path, const Mixity& mixity);
 
 // The mixity whose toughness is what an intact pair dissipates that comes from one jump and debonds by another.
-double path_mixity(const PairLaws& pairs, std::size_t pair, std::span<const double> from, std::span<const double> to,
-                   double mixity);
+Mixity path_mixity(const PairLaws& pairs, std::size_t pair, std::span<const double> from, std::span<const double> to,
+                   const Mixity& mixity);
 
 }  // namespace delam

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "evolution/increment/pair_mixities.hpp"
 #include "reduction/operator/jump_operator.hpp"
 
 namespace delam {
@@ -177,7 +178,8 @@ struct StepHistory {
 struct Sensitivity {
     std::vector<double> conjugate;  // [parameters][patterns] of dE/dtheta
     std::vector<double> adhesion;   // [parameters][pairs]
-    std::vector<double> mixity;     // [parameters][pairs] of the mode that the jumps show
+    std::vector<double> mixity;     // [parameters][pairs] of the B that the jumps show
+    std::vector<double> second;     // [parameters][pairs] of the share S of the second shear, likewise
     std::int64_t unknown = 0;       // pairs whose adhesion came to rest within a step, so far: taken as constant
 
     // False: nothing is followed, or the state was loaded or set.
@@ -187,12 +189,12 @@ struct Sensitivity {
 struct State {
     std::int64_t step = 0;
     double time = 0.0;
-    std::vector<double> theta;          // [patterns]
-    std::vector<double> adhesion;       // [pairs]
-    std::vector<double> mixity;         // [pairs] B used for this step's damage
-    std::vector<double> mixity_before;  // [pairs] B of the step before
-    std::vector<std::uint8_t> closed;   // [pairs]
-    std::uint8_t loaded = 0;            // 1 once any pair has had a jump, so that the mixities are meaningful
+    std::vector<double> theta;         // [patterns]
+    std::vector<double> adhesion;      // [pairs]
+    PairMixities mixity;               // [pairs] used for this step's damage
+    PairMixities mixity_before;        // [pairs] of the step before
+    std::vector<std::uint8_t> closed;  // [pairs]
+    std::uint8_t loaded = 0;           // 1 once any pair has had a jump, so that the mixities are meaningful
     Response response;
     std::vector<double> memory;           // of the jump operator
     std::vector<double> search_memory;    // of the operator that a search uses

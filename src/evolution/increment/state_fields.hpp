@@ -12,6 +12,10 @@
 
 namespace delam {
 
+// The version with shares of the second shear; scenes without two toughnesses in shear have none, and save the one
+// before.
+inline constexpr std::uint32_t since_second_shares = 18;
+
 // One row a line.
 // clang-format off
 template <>
@@ -32,7 +36,8 @@ inline constexpr auto saved_fields<Buckling> =
 
 template <>
 inline constexpr auto saved_fields<Sensitivity> = saved_since(unsaved,
-    &Sensitivity::conjugate, &Sensitivity::adhesion, &Sensitivity::mixity, &Sensitivity::unknown);
+    &Sensitivity::conjugate, &Sensitivity::adhesion, &Sensitivity::mixity, &Sensitivity::second,
+    &Sensitivity::unknown);
 
 template <>
 inline constexpr auto saved_fields<Response> = std::tuple_cat(
@@ -79,8 +84,8 @@ inline constexpr auto saved_fields<State> = std::tuple_cat(
         &State::time,
         &State::theta,
         &State::adhesion,
-        &State::mixity,
-        &State::mixity_before,
+        member_of(&State::mixity, &PairMixities::shear),
+        member_of(&State::mixity_before, &PairMixities::shear),
         &State::closed,
         &State::loaded,
         &State::response,
@@ -134,7 +139,10 @@ inline constexpr auto saved_fields<State> = std::tuple_cat(
     saved_since(16,
         any_size(&State::jump_before)),
     saved_since(17,
-        member_of(&State::outcome, &StepOutcome::buckling)));
+        member_of(&State::outcome, &StepOutcome::buckling)),
+    saved_since(since_second_shares,
+        member_of(&State::mixity, &PairMixities::second),
+        member_of(&State::mixity_before, &PairMixities::second)));
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&

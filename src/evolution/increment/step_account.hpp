@@ -24,7 +24,7 @@ public:
 
     // ---- candidates of a search (search.hpp) ---------------------------------------------------------------------
     // D, with what else the rule minimises besides bodies and springs, from the state before to this adhesion.
-    virtual double cost(std::span<const double> mixity, std::span<const double> adhesion) const = 0;
+    virtual double cost(const PairMixities& mixity, std::span<const double> adhesion) const = 0;
     // E of the state before, of the split that cost() completes.
     virtual double energy_before() const = 0;
     // True if pairs that break next take the mixity that the candidate's displacements show.

@@ -32,7 +32,7 @@ public:
     virtual void record(State& state) const = 0;
     // Mixities to come back to; how much they have swung is not forgotten.
     struct Memory {
-        std::vector<double> used, own;
+        PairMixities used, own;
         std::vector<Toughness> toughness;
     };
     virtual const Memory& memory() const = 0;
@@ -42,9 +42,9 @@ public:
     // this size does not count for mixities either.
     virtual double blur(const State& state, std::span<const double> damage) = 0;
     // Mixities of a start from another state: where that state is broken, those with which it broke.
-    virtual void adopt(std::span<const double> mixity, State& start) const = 0;
+    virtual void adopt(const PairMixities& mixity, State& start) const = 0;
     // Mixities to record for a state whose displacements are given, not minimised with the damage.
-    virtual std::vector<double> shown(std::span<const double> jump, std::vector<double> mixity) const = 0;
+    virtual PairMixities shown(std::span<const double> jump, PairMixities mixity) const = 0;
 };
 
 }  // namespace delam

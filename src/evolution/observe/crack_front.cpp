@@ -7,7 +7,6 @@
 
 #include "base/numbers.hpp"
 #include "law/driving.hpp"
-#include "law/mixity.hpp"
 #include "mesh/box_tree.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/points.hpp"
@@ -18,15 +17,16 @@ namespace {
 
 constexpr double zone_ends = 1e-3;
 
-double mixity_of(const CrackedInterface& interface, std::int64_t pair) {
+Mixity mixity_of(const CrackedInterface& interface, std::int64_t pair) {
     const SpaceVector jump = jump_of(interface, pair);
     double shear = 0.0;
     for (const double component : jump.tangential) shear += component * component;
     const double normal = 0.5 * interface.law.normal_stiffness * jump.normal * jump.normal;
-    if (!interface.law.two_shears()) return mode_mixity(normal, 0.5 * interface.law.tangential_stiffness * shear);
+    if (!interface.law.has_axes()) return mode_mixity(normal, 0.5 * interface.law.tangential_stiffness * shear);
     const std::size_t dim = index(interface.mesh.dimension());
     const std::span<const double> local = interface.jump.subspan(index(pair) * dim, dim);
-    return mode_mixity(normal, driving_energy(interface.law, local).tangential);
+    const Driving y = driving_energy(interface.law, local);
+    return Driving{normal, y.tangential, y.second}.mixity();
 }
 
 }  // namespace

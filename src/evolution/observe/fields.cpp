@@ -73,7 +73,7 @@ constexpr FieldRow field_table[] = {
          return o.state().response.force[i] / o.pairs().weight[i / index(o.problem().mesh->dimension())];
      }},
     {"adhesion", Of::pairs, {1, 1}, nullptr, [](const Observer& o, std::size_t i) { return o.state().adhesion[i]; }},
-    {"mixity", Of::pairs, {1, 1}, nullptr, [](const Observer& o, std::size_t i) { return o.state().mixity[i]; }},
+    {"mixity", Of::pairs, {1, 1}, nullptr, [](const Observer& o, std::size_t i) { return o.state().mixity.shear[i]; }},
     {"contact",
      Of::pairs,
      {1, 1},

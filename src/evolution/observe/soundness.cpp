@@ -45,7 +45,7 @@ void require_finite(const Problem& problem, const State& state) {
     finite.array(state.response.jump, "jump", "pair", dim);
     finite.array(state.response.force, "force", "pair", dim);
     finite.array(state.adhesion, "adhesion", "pair");
-    finite.array(state.mixity, "mixity", "pair");
+    finite.array(state.mixity.shear, "mixity", "pair");
     for (std::size_t p = 0; p < problem.patterns.size(); ++p)
         finite.number(state.response.conjugate[p], "reaction of pattern '", problem.patterns[p].name, "'");
     finite.array(state.response.multipliers, "dual force", "multiplier");

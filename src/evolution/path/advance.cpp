@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/numbers.hpp"
-#include "law/mixity.hpp"
 
 namespace delam {
 
@@ -119,7 +118,7 @@ double load_margin(const PairLaws& pairs, const State& state) {
         if (pairs.law[p] == nullptr || !(state.adhesion[p] > 0.0)) continue;
         const Driving y = driving_energy(pairs, p, state.response.jump);
         if (!(y.total() > 0.0)) continue;
-        const double mixity = pairs.mixed(p) ? mode_mixity(y.normal, y.tangential) : state.mixity[p];
+        const Mixity mixity = pairs.mixed(p) ? y.mixity() : state.mixity[p];
         const double threshold = pairs.law[p]->driving(pairs.toughness(p, mixity), state.adhesion[p]);
         least = std::min(least, std::sqrt(threshold / y.total()));
     }

@@ -7,7 +7,6 @@
 
 #include "base/numbers.hpp"
 #include "evolution/increment/path_dissipation.hpp"
-#include "law/mixity.hpp"
 #include "scene/advice/expected_parts.hpp"
 
 namespace delam {
@@ -22,7 +21,7 @@ constexpr double nearly_loaded_share = 0.5;  // driving energy over onset, from 
 constexpr double softening = 0.02;           // share dissipated, and left, of a pair in the process zone
 constexpr double same_mode = 1e-3;           // spread of onset and toughness, relative, that is no change of mode
 
-Dissipation at_mixities(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> from,
+Dissipation at_mixities(const PairLaws& pairs, const PairMixities& mixity, std::span<const double> from,
                         std::span<const double> to) {
     Dissipation sum{dissipation(pairs, mixity, from, to), dissipation_linear(pairs, mixity, from, to), 0.0,
                     std::vector<double>(to.size(), 0.0)};
@@ -37,7 +36,7 @@ Dissipation at_mixities(const PairLaws& pairs, std::span<const double> mixity, s
 
 }  // namespace
 
-bool InnerPath::one_mode(const State& at, std::span<const double> mixity, const State* before) const {
+bool InnerPath::one_mode(const State& at, const PairMixities& mixity, const State* before) const {
     double least[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     double most[2] = {0.0, 0.0};
     bool any = false;
@@ -64,8 +63,7 @@ bool InnerPath::one_mode(const State& at, std::span<const double> mixity, const 
         if (!damaged && !partly && !nearly(t.onset)) continue;
         any = true;
         add(t);
-        if (damaged && tells_mixity(*pairs_.law[p], y, 0.0))
-            add(pairs_.toughness(p, mode_mixity(y.normal, y.tangential)));
+        if (damaged && tells_mixity(*pairs_.law[p], y, 0.0)) add(pairs_.toughness(p, y.mixity()));
     }
     return !any || (most[0] <= (1.0 + same_mode) * least[0] && most[1] <= (1.0 + same_mode) * least[1]);
 }
@@ -105,7 +103,7 @@ void InnerPath::record(const State& at, const State& next) {
 
 // A path is long where the process zone has few pairs, because each of them softens while the others wait. There the
 // mesh decides about the growth, and the share is so large that a front needs no more than two parts for a pair.
-double InnerPath::bound(const State& at, std::span<const double> mixity) const {
+double InnerPath::bound(const State& at, const PairMixities& mixity) const {
     std::vector<std::uint8_t> softening_pair(at.adhesion.size(), 0), broken(at.adhesion.size(), 0);
     std::int64_t interfaces = 0;
     for (std::size_t p = 0; p < at.adhesion.size(); ++p) {

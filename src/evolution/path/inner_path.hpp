@@ -34,7 +34,7 @@ public:
     // A minimisation of an increment from a state whose displacements may be known (`displaced`); whether it converged.
     using Minimise = std::function<bool(State& state, StepRule& increment, bool displaced)>;
     // An increment from a state, with these mixities and largest share.
-    using Make = std::function<std::unique_ptr<StepRule>(const State& before, std::span<const double> mixity, double)>;
+    using Make = std::function<std::unique_ptr<StepRule>(const State& before, const PairMixities& mixity, double)>;
 
     // Sees the state after each part, and what has been dissipated until then. False: far enough.
     using Watch = std::function<bool(const State& state, const Dissipation& dissipated)>;
@@ -52,7 +52,7 @@ public:
     // True if all pairs that are damaged in part, or nearly loaded to their onset, have the same toughness at these
     // mixities, or if there are no such pairs. before: pairs that were damaged since then count, too, at the mixities
     // that they show now.
-    bool one_mode(const State& at, std::span<const double> mixity, const State* before) const;
+    bool one_mode(const State& at, const PairMixities& mixity, const State* before) const;
     // Minimises in one part, without the bound of a part.
     bool minimise(State& next, StepRule& increment, bool displaced) const {
         return minimise_(next, increment, displaced);
@@ -65,7 +65,7 @@ public:
     const std::vector<PathPoint>& points() const { return points_; }
 
 private:
-    double bound(const State& at, std::span<const double> mixity) const;
+    double bound(const State& at, const PairMixities& mixity) const;
     bool part(const State& at, State& next, bool displaced);
     void record(const State& at, const State& next);
 

@@ -99,7 +99,7 @@ void CandidateEnergies::recall(std::span<const double> memory) {
         for (std::size_t i = 0; i < count; ++i) {
             if (!whole(left[2 * i]) || !(left[2 * i + 1] >= 0.0 && left[2 * i + 1] <= 1.0)) return;
             known.energy.next.push_back(static_cast<std::int64_t>(left[2 * i]));
-            known.energy.next_mixity.push_back(left[2 * i + 1]);
+            known.energy.next_mixity.emplace_back(left[2 * i + 1]);
         }
         left = left.subspan(2 * count);
         known_[key] = std::move(known);
@@ -129,13 +129,13 @@ std::vector<double> CandidateEnergies::memory() const {
             m.push_back(number);
         for (std::size_t i = 0; i < count; ++i) {
             m.push_back(static_cast<double>(e.next[i]));
-            m.push_back(e.next_mixity[i]);
+            m.push_back(e.next_mixity[i].shear);
         }
     }
     return m;
 }
 
-double CandidateEnergies::breaking_mixity(std::size_t pair, std::span<const double> adhesion, double known,
+Mixity CandidateEnergies::breaking_mixity(std::size_t pair, std::span<const double> adhesion, const Mixity& known,
                                           const std::function<std::span<const double>(std::size_t)>& jump) const {
     const PairLaws& pairs = increment_.pairs();
     const std::span<const double> own = jump(pair);
@@ -159,7 +159,7 @@ bool CandidateEnergies::within_zone(std::span<const double> adhesion, std::span<
     return within;
 }
 
-void CandidateEnergies::from_zone(std::span<const double> adhesion, std::span<const double> known, bool exact,
+void CandidateEnergies::from_zone(std::span<const double> adhesion, const PairMixities& known, bool exact,
                                   CandidateEnergy& e) {
     const std::optional<double> value = zone_->energy(adhesion, exact);
     if (!zone_->settled()) {
@@ -178,8 +178,7 @@ void CandidateEnergies::from_zone(std::span<const double> adhesion, std::span<co
     }
 }
 
-void CandidateEnergies::from_operator(std::span<const double> adhesion, std::span<const double> known,
-                                      CandidateEnergy& e) {
+void CandidateEnergies::from_operator(std::span<const double> adhesion, const PairMixities& known, CandidateEnergy& e) {
     const PairLaws& pairs = increment_.pairs();
     focused_ = false;  // the solve may choose another zone
     e.exact = true;
@@ -204,7 +203,7 @@ void CandidateEnergies::from_operator(std::span<const double> adhesion, std::spa
 }
 
 const CandidateEnergy& CandidateEnergies::at(const std::vector<double>& adhesion, std::span<const std::int64_t> next,
-                                             std::span<const double> known, std::int64_t candidates, bool exact) {
+                                             const PairMixities& known, std::int64_t candidates, bool exact) {
     const std::uint64_t key = key_of(adhesion);
     if (const auto it = known_.find(key);
         it != known_.end() && (!exact || it->second.energy.exact) &&

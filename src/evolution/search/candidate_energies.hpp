@@ -21,7 +21,7 @@ struct CandidateEnergy {
     double value;                     // at the unit load; infinite: no equilibrium
     double error;                     // by which it may be too high
     std::vector<std::int64_t> next;   // pairs that may break next
-    std::vector<double> next_mixity;  // with which they would break; empty if the mixity does not follow the iterates
+    std::vector<Mixity> next_mixity;  // with which they would break; empty if the mixity does not follow the iterates
     bool exact = false;               // contact is decided everywhere, so that the error is that of the solve
 };
 
@@ -52,20 +52,20 @@ public:
     void recheck_contact() {
         if (focused_) zone_->recheck_contact();
     }
-    // known: B of the pairs. candidates: number compared so far (progress). exact: contact is not left undecided, nor
-    // unchecked outside a zone.
+    // known: those of the pairs. candidates: number compared so far (progress). exact: contact is not left undecided,
+    // nor unchecked outside a zone.
     const CandidateEnergy& at(const std::vector<double>& adhesion, std::span<const std::int64_t> next,
-                              std::span<const double> known, std::int64_t candidates, bool exact = false);
+                              const PairMixities& known, std::int64_t candidates, bool exact = false);
 
 private:
-    // Returns B of a pair that would break next, whose jump is then that of a broken neighbour. jump: of a pair, empty
-    // where it is not known.
-    double breaking_mixity(std::size_t pair, std::span<const double> adhesion, double known,
+    // Returns the mixity of a pair that would break next, whose jump is then that of a broken neighbour. jump: of a
+    // pair, empty where it is not known.
+    Mixity breaking_mixity(std::size_t pair, std::span<const double> adhesion, const Mixity& known,
                            const std::function<std::span<const double>(std::size_t)>& jump) const;
     bool within_zone(std::span<const double> adhesion, std::span<const std::int64_t> next) const;
-    void from_zone(std::span<const double> adhesion, std::span<const double> known, bool exact, CandidateEnergy& e);
+    void from_zone(std::span<const double> adhesion, const PairMixities& known, bool exact, CandidateEnergy& e);
     void recall_first_layout(std::span<const double> entries);
-    void from_operator(std::span<const double> adhesion, std::span<const double> known, CandidateEnergy& e);
+    void from_operator(std::span<const double> adhesion, const PairMixities& known, CandidateEnergy& e);
 
     JumpOperator& op_;
     const ContactScene& contact_;

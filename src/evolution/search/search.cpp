@@ -123,7 +123,7 @@ Candidate Trials::restored(const Candidate& base, std::span<const std::int64_t> 
     Candidate out = base;
     for (const std::int64_t p : pairs) {
         out.adhesion[index(p)] = start_.adhesion[index(p)];
-        out.mixity[index(p)] = start_.mixity[index(p)];
+        out.mixity.set(index(p), start_.mixity[index(p)]);
     }
     for (std::size_t p = 0; p < out.least.size(); ++p)
         out.least[p] = out.adhesion[p] != start_.adhesion[p] ? search_.least_left(start_, p) : 0.0;
@@ -243,7 +243,7 @@ double Search::debonded_energy(const State& from, std::span<const double> direct
 }
 
 SearchResult Search::run(const Increment& increment, const StepAccount& account, const State& from,
-                         std::span<const double> mixity) {
+                         const PairMixities& mixity) {
     SearchResult result;
     const double tolerance = problem_.options.search_tolerance * from.ledger.scale();
     CandidateEnergies energies(op_, contact_, monitor_, zone_ ? &*zone_ : nullptr, graph_, increment,
@@ -269,7 +269,7 @@ SearchResult Search::run(const Increment& increment, const StepAccount& account,
                   from.ledger.increment,
                   tolerance,
                   problem_.options.search_limit};
-    Candidate start{increment.adhesion_before(), {mixity.begin(), mixity.end()}};
+    Candidate start{increment.adhesion_before(), mixity};
     if (account.follows_iterates()) start.least.assign(start.adhesion.size(), 0.0);
     Trials trials(run, from, std::move(start));
     trials.run();

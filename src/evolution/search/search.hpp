@@ -51,7 +51,7 @@ public:
     // bits. Energies for later searches are therefore part of the state, and other steps leave only E_all of the same
     // load.
     SearchResult run(const Increment& increment, const StepAccount& account, const State& from,
-                     std::span<const double> mixity);
+                     const PairMixities& mixity);
 
 private:
     double debonded_energy(const State& from, std::span<const double> direction) const;

@@ -20,7 +20,7 @@ inline constexpr double promising = 0.5;
 
 struct Candidate {
     std::vector<double> adhesion;  // [pairs]
-    std::vector<double> mixity;    // [pairs] with which it was recorded
+    PairMixities mixity;           // [pairs] with which it was recorded
     double incremental = 0.0;      // I, F L
     // [pairs] the part of D that a pair has at least, where no sample has shown its mixity at any, F L; empty: the
     // mixities do not follow the iterates.

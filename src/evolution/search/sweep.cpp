@@ -34,7 +34,7 @@ const std::vector<std::uint8_t>& SearchRun::adhering(const Candidate& base) {
     return last_adhering;
 }
 
-double SearchRun::compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity,
+double SearchRun::compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<Mixity>* next_mixity,
                           bool exact) {
     --left;
     ++result.candidates;
@@ -117,7 +117,7 @@ void Sweep::bound_costs() {
     ring_least_.assign(ring_.size(), {});
     unknown_.assign(1, 0);
     for (std::size_t n = 0; n < ring_.size(); ++n) {
-        const std::vector<double>& known = mixity_[n];
+        const std::vector<Mixity>& known = mixity_[n];
         for (std::size_t i = 0; i < ring_[n].size(); ++i) {
             const std::size_t p = index(ring_[n][i]);
             if (known.empty() || !pairs.mixed(p)) {
@@ -178,7 +178,7 @@ Candidate Sweep::candidate(std::size_t n) const {
             c.adhesion[p] = 0.0;
             if (!search_.account.follows_iterates() || latest == ring_.size()) continue;
             const auto at = [&](std::size_t ring) { return mixity_[ring][std::min(i, mixity_[ring].size() - 1)]; };
-            c.mixity[p] = way > 0.0 ? (1.0 - way) * at(latest) + way * at(next) : at(latest);
+            c.mixity.set(p, way > 0.0 ? (1.0 - way) * at(latest) + way * at(next) : at(latest));
         }
     }
     if (const auto it = value_.find(n); it != value_.end()) c.incremental = it->second.incremental;
@@ -198,7 +198,7 @@ void Sweep::sample(std::size_t n, bool exact) {
     Candidate c = candidate(n);
     const std::span<const std::int64_t> next =
         n < ring_.size() ? std::span<const std::int64_t>(ring_[n]) : std::span<const std::int64_t>();
-    std::vector<double> next_mixity;
+    std::vector<Mixity> next_mixity;
     search_.compare(c, next, &next_mixity, exact);
     if (n < ring_.size() && !next_mixity.empty()) {
         mixity_[n] = std::move(next_mixity);

@@ -47,9 +47,9 @@ struct SearchRun {
     // Returns what a pair of the base dissipates at least when it breaks, at any mixity if that follows the iterates, F
     // L.
     double least_left(const Candidate& base, std::size_t pair) const;
-    // I of a candidate; counts it. next_mixity: B that the pairs `next` show, where the mixity follows the iterates.
-    // exact: see CandidateEnergies::at. Samples of a sweep are noted once they are final.
-    double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity,
+    // I of a candidate; counts it. next_mixity: those that the pairs `next` show, where the mixity follows the
+    // iterates. exact: see CandidateEnergies::at. Samples of a sweep are noted once they are final.
+    double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<Mixity>* next_mixity,
                    bool exact = false);
 
     void note_lowest(double incremental) { result.lowest = std::min(result.lowest, incremental); }
@@ -139,7 +139,7 @@ private:
     std::map<std::size_t, Candidate> value_;            // by rings; adhesion is left out: only I and D are needed
     std::map<std::size_t, double> cost_;                // D
     mutable std::map<std::size_t, double> other_cost_;  // where it does not depend on the samples
-    std::vector<std::vector<double>> mixity_;           // B of a ring as its sample shows it; empty: not sampled
+    std::vector<std::vector<Mixity>> mixity_;           // those of a ring as its sample shows it; empty: not sampled
     std::vector<double> least_cost_;                    // [rings and 1], where the mixity follows the iterates
     std::vector<std::vector<double>> ring_least_;       // of each pair
     std::vector<std::size_t> unknown_;                  // [rings and 1] rings before, whose mixity no sample has shown

@@ -94,7 +94,7 @@ Minimiser Stepper::minimiser() {
             options.solution == "energetic"};
 }
 
-std::unique_ptr<StepRule> Stepper::increment(const State& before, std::span<const double> mixity) const {
+std::unique_ptr<StepRule> Stepper::increment(const State& before, const PairMixities& mixity) const {
     return rule_->increment(pairs_, before, mixity, problem_.options.damage_tolerance);
 }
 
@@ -108,7 +108,7 @@ Stepper::Result Stepper::initial(double time) {
     // A notch starts closed, and stays closed unless something opens it.
     for (std::size_t p = 0; p < state.adhesion.size(); ++p)
         state.closed.push_back(state.adhesion[p] == 0.0 && contact_.may_close(p, operator_->prescribed_rows()) ? 1 : 0);
-    state.mixity.assign(state.adhesion.size(), 0.0);
+    state.mixity = opening(pairs_);
     const Response none;
     places_.emplace(*operator_, state.theta, none);
     result.converged = minimiser().displace(state, *increment(state, state.mixity));
@@ -174,7 +174,7 @@ void Stepper::record_step(State& next, const StepRule& step, const InnerPath* pa
 
 InnerPath Stepper::inner_path() {
     return {pairs_, graph_, stride_,
-            [this](const State& before, std::span<const double> mixity, double stride) {
+            [this](const State& before, const PairMixities& mixity, double stride) {
                 const Options& options = problem_.options;
                 return rule_->increment(pairs_, before, mixity,
                                         {options.damage_tolerance, stride, held_of_accuracy * options.accuracy});
@@ -290,7 +290,7 @@ Sensitivity Stepper::differentiate(const State& before, const State& state,
     start(elastic, before, state.time);
     places_.reset();
     const Sensitivity begun = sensitivity(of(elastic), parameters, problem_.patterns, nullptr);
-    return sensitivity(of(state), parameters, problem_.patterns, step.get(), &begun.mixity);
+    return sensitivity(of(state), parameters, problem_.patterns, step.get(), &begun);
 }
 
 Sensitivity Stepper::follow(std::vector<FollowedParameter> parameters, const State& initial) {

@@ -54,7 +54,8 @@ public:
               dissipated(state.ledger.dissipated),
               dissipated_linear(state.ledger.dissipated_linear) {}
         bool descends;
-        std::vector<double> adhesion, mixity;  // [pairs]
+        std::vector<double> adhesion;  // [pairs]
+        PairMixities mixity;
         double dissipated, dissipated_linear;
     };
     // stride: the largest share of its toughness that a pair may dissipate in a part; 0: the option path_step.
@@ -104,7 +105,7 @@ public:
     const JumpOperator& op() const { return *operator_; }
     JumpOperator& op() { return *operator_; }
     // The minimisation of a step that starts from these mixities.
-    std::unique_ptr<StepRule> increment(const State& before, std::span<const double> mixity) const;
+    std::unique_ptr<StepRule> increment(const State& before, const PairMixities& mixity) const;
     // Takes what has changed in the problem (Problem::renewed). False: it cannot, and must be made anew.
     bool renew(Renewed what) {
         if (!operator_->renew(what)) return false;

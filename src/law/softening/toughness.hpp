@@ -3,7 +3,7 @@
 
 namespace delam {
 
-// Toughness at one mixity, F/L.
+// Toughness at one mixity (law/mixity.hpp), F/L.
 struct Toughness {
     double onset;         // Go, 0 < Go <= Gc
     double total;         // Gc

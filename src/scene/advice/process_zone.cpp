@@ -38,10 +38,22 @@ double volume_of(const Mesh& mesh, std::int32_t body) {
 }
 
 struct Mode {
-    double mixity;
+    Mixity mixity;
     std::size_t component;  // of the jump
 };
-constexpr Mode modes[] = {{0.0, 0}, {1.0, 1}};
+
+// The modes in which a law may differ from itself.
+std::vector<Mode> modes_of(const Law& law) {
+    std::vector<Mode> modes{{Mixity(0.0), 0}, {Mixity(1.0), 1}};
+    if (law.two_shear_toughnesses()) modes.push_back({Mixity(1.0, 1.0), 2});
+    return modes;
+}
+
+// The largest stiffness in a mode: that of both shears where their onset is one.
+double stiffness_of(const Law& law, const Mode& mode) {
+    if (mode.component == 0 || law.two_shear_toughnesses()) return law.stiffness(mode.component);
+    return std::max(law.stiffness(1), law.stiffness(2));
+}
 
 struct Arm {
     double modulus;
@@ -106,10 +118,9 @@ ProcessZone predicted_process_zone(const Problem& problem, std::int64_t interfac
     if (properties.bonded || !properties.law || !properties.law->softens()) return zone;
     zone.length = std::numeric_limits<double>::infinity();
     for (const Arm& arm : arms_of(problem, interface))
-        for (const Mode mode : modes) {
+        for (const Mode& mode : modes_of(*properties.law)) {
             const Toughness toughness = properties.law->toughness(mode.mixity);
-            const Law& law = *properties.law;
-            const double k = mode.component == 0 ? law.stiffness(0) : std::max(law.stiffness(1), law.stiffness(2));
+            const double k = stiffness_of(*properties.law, mode);
             zone.length =
                 std::min(zone.length, zone_of(mode, arm.modulus * toughness.total / (2.0 * k * toughness.onset), arm));
         }
@@ -122,10 +133,10 @@ std::array<double, 2> resolved_strengths(const Problem& problem, std::int64_t in
     std::array<double, 2> strength{};
     if (properties.bonded || !properties.law || !properties.law->softens() || !(length > 0.0)) return strength;
     for (const Arm& arm : arms_of(problem, interface))
-        for (const Mode mode : modes) {
+        for (const Mode& mode : modes_of(*properties.law)) {
             const double toughness = properties.law->toughness(mode.mixity).total;
             const double largest = std::sqrt(arm.modulus * toughness / thick_zone_of(mode, length, arm));
-            double& found = strength[mode.component];
+            double& found = strength[std::min<std::size_t>(mode.component, 1)];
             found = found > 0.0 ? std::min(found, largest) : largest;
         }
     return strength;

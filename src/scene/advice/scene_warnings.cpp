@@ -75,7 +75,9 @@ void judge_law(const Problem& problem, std::int64_t i, Warnings& warnings) {
     const Law& law = *problem.interfaces[index(i)].law;
     const double thickness = arm_thickness(problem, i);
     for (const auto& [mode, mixity, component] :
-         {std::tuple{"normal", 0.0, std::size_t{0}}, std::tuple{"tangential", 1.0, std::size_t{1}}}) {
+         {std::tuple{"normal", Mixity(0.0), std::size_t{0}}, std::tuple{"tangential", Mixity(1.0), std::size_t{1}},
+          std::tuple{"second tangential", Mixity(1.0, 1.0), std::size_t{2}}}) {
+        if (component == 2 && !law.two_shear_toughnesses()) continue;
         const Toughness toughness = law.toughness(mixity);
         const double k = law.stiffness(component);
         if (!(toughness.onset > 0.0)) continue;

@@ -13,6 +13,7 @@
 #include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "law/admissible.hpp"
+#include "law/law_parameters.hpp"
 #include "linalg/sparse/sparse_elimination.hpp"
 #include "mesh/face_gaps.hpp"
 #include "mesh/points.hpp"
@@ -60,6 +61,15 @@ void check_distances(const Problem& problem, std::size_t i) {
          "): a face lies within the gap only in part; enlarge the gap, or let the gaps count (delam_problem_set_gaps)");
 }
 
+// A plane mesh has one direction of sliding.
+void require_one_shear(const Law& law, std::size_t interface) {
+    if (!law.has_axes()) return;
+    for (const LawParameter& p : law_parameters())
+        if (p.like != nullptr && law.*p.value > 0.0 && law.*p.value != law.*p.like)
+            fail(DELAM_ERROR_PROBLEM, "interface ", interface, ": ", p.key, " ", law.*p.value,
+                 " of its law is not that of the first shear, but a plane mesh has one direction of sliding");
+}
+
 void check_interfaces(const Problem& problem) {
     for (std::size_t i = 0; i < problem.interfaces.size(); ++i) {
         const InterfaceProperties& interface = problem.interfaces[i];
@@ -83,10 +93,7 @@ void check_interfaces(const Problem& problem) {
             fail(DELAM_ERROR_PROBLEM, "interface ", i,
                  ": no law (delam_problem_set_law, delam_problem_set_bonded or delam_problem_set_contact)");
         } else {
-            if (interface.law->two_shears() && problem.mesh->dimension() == 2)
-                fail(DELAM_ERROR_PROBLEM, "interface ", i, ": second_tangential_stiffness ",
-                     interface.law->second_tangential_stiffness, " of its law is not tangential_stiffness ",
-                     interface.law->tangential_stiffness, ", but a plane mesh has one direction of sliding");
+            if (problem.mesh->dimension() == 2) require_one_shear(*interface.law, i);
             try {
                 validate(*interface.law);
             } catch (const Error& e) {
@@ -113,6 +120,12 @@ constexpr double weak_dependence = 2.0;  // difference of the toughnesses over t
 
 void check_mixity_rule(const Problem& problem) {
     if (problem.options.mixity_rule != "variational") return;
+    for (std::size_t i = 0; i < problem.interfaces.size(); ++i)
+        if (const auto& law = problem.interfaces[i].law; law && law->two_shear_toughnesses())
+            fail(DELAM_ERROR_PROBLEM, "mixity_rule = variational: the law of interface ", i,
+                 " has two onsets or toughnesses in shear (second_tangential_onset, second_tangential_strength or "
+                 "second_tangential_toughness), whose tractions this rule does not know: use mixity_rule = frozen or "
+                 "converged");
     if (problem.options.kinematics != "linear")
         fail(DELAM_ERROR_PROBLEM, "kinematics = ", problem.options.kinematics,
              " does not know mixity_rule = variational: use frozen or converged");

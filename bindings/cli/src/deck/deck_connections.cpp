@@ -99,7 +99,7 @@ std::string Connections::entry(const Held& held, const DeckLaws& laws) const {
     out += held.bonded        ? "bonded = true\n"
            : held.law.empty() ? "contact = true\n"
                               : fmt::format("law = {}\n", toml_text(held.law));
-    if (laws.two_shears(held.law))
+    if (laws.has_axes(held.law))
         out += fmt::format("shear_axis = {}  # projected: axis 1 of the deck\n",
                            toml_list(std::vector<double>(held.shear_axis.begin(), held.shear_axis.end())));
     if (held.shared) out += "shared = \"bonded\"\n";

@@ -189,7 +189,7 @@ private:
                                                           "thick: one law has one stiffness; give a section to each",
                                                           least, most));
         const std::string law = laws_.of_material(material, thickness);
-        const Vector axis = laws_.two_shears(law) ? shear_axis(section, *scope) : Vector{1, 0, 0};
+        const Vector axis = laws_.has_axes(law) ? shear_axis(section, *scope) : Vector{1, 0, 0};
         for (const auto& [bodies, gap] : gaps) {
             const bool apart = gap > 1e-6 * edge_;
             // The nodes of both sides belong together, and no others are as near.

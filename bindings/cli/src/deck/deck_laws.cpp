@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "text/refusals.hpp"
 #include "text/toml_text.hpp"
 
 namespace cli::abaqus {
@@ -23,19 +24,9 @@ constexpr double penalty_factor = 10;
 // max((t_n/s_n)^2, (t_t/s_t)^2) = 1 is the limit of a power law whose exponent grows.
 constexpr double maximum_exponent = 100;
 
-// True if the two shears have different stiffnesses.
-bool shears_differ(const Numbers& stiffness, std::int32_t dimension) {
-    return dimension == 3 && stiffness.size() > 2 &&
-           std::abs(stiffness[1] - stiffness[2]) > 1e-9 * std::abs(stiffness[1]);
-}
-
-// Ktt, T and Gt play no part in the plane; in space the law is the same in both directions of sliding.
-void require_isotropic(const Numbers& values, const char* what, std::int32_t dimension, const Place& place) {
-    if (dimension == 3 && values.size() > 2 && std::abs(values[1] - values[2]) > 1e-9 * std::abs(values[1]))
-        throw SceneFailure(place, fmt::format("{}: {} and {} in the two directions of sliding: the law of an interface "
-                                              "has one value for both; write the same twice, that of the direction in "
-                                              "which the crack grows",
-                                              what, values[1], values[2]));
+// True if the two shears have different numbers; Ktt, T and Gt play no part in the plane.
+bool shears_differ(const Numbers& values, std::int32_t dimension) {
+    return dimension == 3 && values.size() > 2 && std::abs(values[1] - values[2]) > 1e-9 * std::abs(values[1]);
 }
 
 void require_positive(const Numbers& values, std::size_t count, const char* what, const Place& place) {
@@ -53,7 +44,10 @@ struct Mode {
     double stiffness;
     double strength;
     [[nodiscard]] double at_onset() const { return strength / stiffness; }
+    [[nodiscard]] double onset() const { return strength * at_onset() / 2; }
 };
+// Opening, the first shear and, in space, the second where a number of the deck differs from that of the first.
+using Modes = std::vector<Mode>;
 
 using Curve = std::vector<std::array<double, 2>>;
 
@@ -124,8 +118,7 @@ double area_with_straight_damage(const DamageCards& damage, const Mode& mode) {
 // A table over the mode mix ratio, in the quantities of a law.
 class MixTable {
 public:
-    MixTable(const DamageCards& damage, const Mode (&modes)[2])
-        : damage_(damage), normal_(modes[0]), shear_(modes[1]) {}
+    MixTable(const DamageCards& damage, const Modes& modes) : damage_(damage), normal_(modes[0]), shear_(modes[1]) {}
 
     // Returns the share of shear in the energy. MODE MIX RATIO=TRACTION has 2/pi of the angle between the tractions,
     // which damage leaves as it is because it lowers both alike.
@@ -145,8 +138,7 @@ public:
 
 private:
     [[nodiscard]] double onset_energy(double share) const {
-        const double normal = normal_.strength * normal_.at_onset() / 2,
-                     shear = shear_.strength * shear_.at_onset() / 2;
+        const double normal = normal_.onset(), shear = shear_.onset();
         const double a = (1 - share) / normal, b = share / shear;
         return 1 / (damage_.initiation.starts_with("MAX") ? std::max(a, b) : a + b);
     }
@@ -157,7 +149,7 @@ private:
 
 // Makes Benzeggagh and Kenane's criterion of a table over the mode mix ratio, between whose rows Abaqus interpolates:
 // with two rows of toughnesses over shares of the energy it is the same, with exponent 1.
-DamageCards with_criterion(const std::string& name, const DamageCards& table, const Mode (&modes)[2],
+DamageCards with_criterion(const std::string& name, const DamageCards& table, const Modes& modes,
                            std::vector<std::string>& changed) {
     constexpr double allowed = 0.03;  // of a toughness: measured ones scatter by more
     const Place& place = table.evolution_place;
@@ -212,17 +204,18 @@ DamageCards with_criterion(const std::string& name, const DamageCards& table, co
     return out;
 }
 
-// The toughness of both modes, from energies or displacements.
-Numbers toughness_of(const std::string& name, const DamageCards& damage, const Mode (&modes)[2], std::int32_t dimension,
+// The toughness of all modes, from energies or displacements. Benzeggagh and Kenane's criterion of Abaqus takes that of
+// the first shear for both.
+Numbers toughness_of(const std::string& name, const DamageCards& damage, const Modes& modes,
                      std::vector<std::string>& changed) {
     const Place& place = damage.evolution_place;
     if (damage.evolution == "ENERGY") {
         Numbers energy = damage.values[0];
         if (energy.empty()) throw SceneFailure(place, "a toughness is expected");
-        if (damage.mixed_mode.empty()) return {energy[0], energy[0]};
+        if (damage.mixed_mode.empty()) return Numbers(modes.size(), energy[0]);
         if (energy.size() < 2) throw SceneFailure(place, "the toughness of two or three modes is expected");
-        if (damage.mixed_mode == "POWER LAW") require_isotropic(energy, "toughness", dimension, place);
-        energy.resize(2);
+        if (energy.size() < 3 || damage.mixed_mode == "BK") energy.resize(3, energy[1]), energy[2] = energy[1];
+        energy.resize(modes.size());
         return energy;
     }
     if (damage.softening == "TABULAR") (void)softening_of(damage, modes[0]);
@@ -242,12 +235,16 @@ Numbers toughness_of(const std::string& name, const DamageCards& damage, const M
                             "Abaqus, where the area beyond the onset is {:+.2g} % different",
                             name, 100 * (other / lines - 1)));
     }
-    const bool same_onset = std::abs(modes[0].at_onset() - modes[1].at_onset()) <= 1e-9 * modes[0].at_onset();
+    const auto same = [&](auto&& of) {
+        return std::all_of(modes.begin(), modes.end(),
+                           [&](const Mode& mode) { return std::abs(of(modes[0]) - of(mode)) <= 1e-9 * of(modes[0]); });
+    };
+    const bool same_onset = same([](const Mode& mode) { return mode.at_onset(); });
     if (damage.softening == "TABULAR" && !same_onset)
         throw SceneFailure(place,
                            "SOFTENING=TABULAR is imported for modes whose jumps at the onset are the same: the "
                            "curve of a law is that of all modes");
-    if (!same_onset || std::abs(modes[0].strength - modes[1].strength) > 1e-9 * modes[0].strength)
+    if (!same_onset || !same([](const Mode& mode) { return mode.strength; }))
         changed.push_back(
             fmt::format("law \"{}\": the deck gives displacements, the scene energies: alike in the pure "
                         "modes, and between them by a power law with exponent 1",
@@ -274,25 +271,89 @@ std::string kind_of(const std::string& name, const DamageCards& damage, std::vec
     return "exponential";
 }
 
-// In space the law of a deck may have two stiffnesses in shear, but the energies of onset and of toughness are one.
-void require_one_shear(const Numbers& stiffness, const DamageCards& cards, std::int32_t dimension) {
-    if (!shears_differ(stiffness, dimension))
-        return require_isotropic(cards.strengths, cards.initiation.c_str(), dimension, cards.initiation_place);
-    const auto onset = [&](std::size_t m) {
-        const double peak = peak_of(cards.initiation, cards.strengths[m], stiffness[m], 1.0);
-        return peak / stiffness[m] * peak / 2;
+// True if the law of a deck has numbers of its own for the second shear.
+bool second_shear_differs(const Numbers& stiffness, const DamageCards& cards, std::int32_t dimension) {
+    return shears_differ(stiffness, dimension) || shears_differ(cards.strengths, dimension) ||
+           (cards.evolution == "ENERGY" && cards.mixed_mode == "POWER LAW" && !cards.values.empty() &&
+            shears_differ(cards.values[0], dimension));
+}
+
+// The modes of the deck; a number that it leaves out for the second shear is that of the first.
+Modes modes_of(const Numbers& stiffness, double thickness, const DamageCards& cards, bool axes, const Place& place) {
+    const std::size_t count = axes ? 3 : 2;
+    Numbers springs = stiffness, peaks = cards.strengths;
+    if (axes && springs.size() == 2) springs.push_back(springs[1]);
+    if (axes && peaks.size() == 2) peaks.push_back(peaks[1]);
+    RefusalList refused;
+    refused.attempt([&] { require_positive(springs, count, "stiffness", place); });
+    refused.attempt([&] { require_positive(peaks, count, cards.initiation.c_str(), cards.initiation_place); });
+    refused.require_none();
+    Modes modes;
+    for (std::size_t m = 0; m < count; ++m)
+        modes.push_back({springs[m], peak_of(cards.initiation, peaks[m], springs[m], thickness)});
+    return modes;
+}
+
+// What the cards of a law mean.
+struct Judged {
+    Modes modes;
+    Numbers toughness;
+    DamageCards damage;
+    std::string kind;
+
+    static bool differ(double first, double second) { return std::abs(first - second) > 1e-9 * first; }
+    [[nodiscard]] bool three() const { return modes.size() > 2; }
+    [[nodiscard]] bool stiffnesses_differ() const {
+        return three() && differ(modes[1].stiffness, modes[2].stiffness);
+    }
+    [[nodiscard]] bool onsets_differ() const { return three() && differ(modes[1].onset(), modes[2].onset()); }
+    [[nodiscard]] bool toughnesses_differ() const { return three() && differ(toughness[1], toughness[2]); }
+};
+
+// Judges the cards of a law one by one, and refuses together what cannot be imported. Energies are judged also where
+// stiffnesses or strengths are wrong.
+Judged judge(const std::string& name, const Numbers& stiffness, double thickness, const DamageCards& cards, bool axes,
+             const Place& place, std::vector<std::string>& changed) {
+    Judged out;
+    out.modes.resize(axes ? 3 : 2);
+    out.damage = cards;
+    RefusalList refused;
+    bool known = refused.attempt([&] { out.modes = modes_of(stiffness, thickness, cards, axes, place); });
+    const bool table = cards.mixed_mode == "TABULAR";
+    if (axes && table)
+        known = refused.attempt([&] {
+            throw SceneFailure(cards.evolution_place,
+                               "other numbers in the second direction of sliding are imported without a table of "
+                               "modes: give TYPE=ENERGY with BK or POWER LAW");
+        });
+    if (known && table) known = refused.attempt([&] { out.damage = with_criterion(name, cards, out.modes, changed); });
+    if (known || (!table && cards.evolution == "ENERGY"))
+        refused.attempt([&] {
+            out.toughness = toughness_of(name, out.damage, out.modes, changed);
+            require_positive(out.toughness, out.modes.size(), "toughness", out.damage.evolution_place);
+        });
+    refused.attempt([&] { out.kind = kind_of(name, out.damage, changed); });
+    refused.require_none();
+    return out;
+}
+
+// Keys of the numbers of all modes. Where damage begins at one energy in both shears, the law has one onset.
+std::string numbers_text(const Judged& law) {
+    constexpr const char* names[] = {"normal", "tangential", "second_tangential"};
+    std::string out;
+    const Modes& modes = law.modes;
+    const bool stiffnesses = law.stiffnesses_differ(), onsets = law.onsets_differ();
+    const auto add = [&](std::size_t mode, const char* what, double value) {
+        out += fmt::format("{}_{} = {}\n", names[mode], what, toml_number(value));
     };
-    const double first = onset(1), second = cards.strengths.size() > 2 ? onset(2) : HUGE_VAL;
-    if (!(std::abs(second - first) <= 1e-9 * first))
-        throw SceneFailure(
-            cards.initiation_place,
-            fmt::format("{}: with the stiffnesses {} and {} in the two directions of sliding, damage has "
-                        "to begin at the same energy s^2/(2 K) in both: the law of an interface has one",
-                        cards.initiation, stiffness[1], stiffness[2]));
-    if (cards.evolution != "ENERGY" || cards.mixed_mode == "TABULAR")
-        throw SceneFailure(cards.evolution_place,
-                           "two stiffnesses in shear are imported with TYPE=ENERGY and without a "
-                           "table of modes");
+    for (std::size_t m = 0; m < (stiffnesses ? 3 : 2); ++m) add(m, "stiffness", modes[m].stiffness);
+    for (std::size_t m = 0; m < (onsets ? 3 : 2); ++m)
+        if (m == 1 && stiffnesses && !onsets)
+            add(m, "onset", modes[m].onset());
+        else
+            add(m, "strength", modes[m].strength);
+    for (std::size_t m = 0; m < (law.toughnesses_differ() ? 3 : 2); ++m) add(m, "toughness", law.toughness[m]);
+    return out;
 }
 
 // Returns the law as [[laws]] of a scene, and adds what differs from that of the deck to `changed`.
@@ -303,30 +364,13 @@ std::string law_text(const std::string& name, const Numbers& stiffness, double t
                            fmt::format("\"{}\" has no {}: an interface that stays whole is no law; bodies that "
                                        "share nodes are bonded",
                                        name, cards.initiation.empty() ? "*DAMAGE INITIATION" : "*DAMAGE EVOLUTION"));
-    const bool sheared = shears_differ(stiffness, dimension);
-    require_positive(stiffness, sheared ? 3 : 2, "stiffness", place);
-    require_positive(cards.strengths, 2, cards.initiation.c_str(), cards.initiation_place);
-    require_one_shear(stiffness, cards, dimension);
-    Mode modes[2];
-    for (std::size_t m = 0; m < 2; ++m)
-        modes[m] = {stiffness[m], peak_of(cards.initiation, cards.strengths[m], stiffness[m], thickness)};
-    const DamageCards damage = cards.mixed_mode == "TABULAR" ? with_criterion(name, cards, modes, changed) : cards;
-    const Numbers toughness = toughness_of(name, damage, modes, dimension, changed);
-    require_positive(toughness, 2, "toughness", damage.evolution_place);
-    const std::string kind = kind_of(name, damage, changed);
+    const bool axes = second_shear_differs(stiffness, cards, dimension);
+    const Judged law = judge(name, stiffness, thickness, cards, axes, place, changed);
+    const DamageCards& damage = law.damage;
 
     std::string out = fmt::format("{}[[laws]]\nname = {}\n", origin_line(place), toml_text(name));
-    if (kind != "piecewise-linear") out += fmt::format("kind = \"{}\"\n", kind);
-    for (std::size_t m = 0; m < 2; ++m)
-        out += fmt::format("{}_stiffness = {}\n", m == 0 ? "normal" : "tangential", toml_number(stiffness[m]));
-    if (sheared) out += fmt::format("second_tangential_stiffness = {}\n", toml_number(stiffness[2]));
-    for (std::size_t m = 0; m < 2; ++m)
-        if (m == 1 && sheared)
-            out += fmt::format("tangential_onset = {}\n", toml_number(modes[m].strength * modes[m].at_onset() / 2));
-        else
-            out += fmt::format("{}_strength = {}\n", m == 0 ? "normal" : "tangential", toml_number(modes[m].strength));
-    for (std::size_t m = 0; m < 2; ++m)
-        out += fmt::format("{}_toughness = {}\n", m == 0 ? "normal" : "tangential", toml_number(toughness[m]));
+    if (law.kind != "piecewise-linear") out += fmt::format("kind = \"{}\"\n", law.kind);
+    out += numbers_text(law);
     const bool maximum = damage.initiation.rfind("MAX", 0) == 0;
     if (maximum)
         changed.push_back(
@@ -334,13 +378,20 @@ std::string law_text(const std::string& name, const Numbers& stiffness, double t
                         "strength is 0.35 % less",
                         name, damage.initiation, maximum_exponent));
     const bool bk = damage.mixed_mode == "BK";
+    const bool onset = maximum && law.onsets_differ();
+    const bool toughness = damage.mixed_mode == "POWER LAW" && damage.power != 1.0 && law.toughnesses_differ();
+    if (onset || toughness)
+        changed.push_back(fmt::format(
+            "law \"{}\": between the two directions of sliding, {} with exponent 1 ((1-S)/G_1 + S/G_2 = 1/G, S being "
+            "the share of the second in the energy of sliding); along each of them as in the deck",
+            name, onset && toughness ? "onset and toughness" : (onset ? "onset" : "toughness")));
     out += fmt::format("onset_criterion = \"power\"       # {}\nonset_exponent = {}\n", damage.initiation,
                        toml_number(maximum ? maximum_exponent : 1.0));
     out += fmt::format("criterion = \"{}\"\ntoughness_exponent = {}\n", bk ? "benzeggagh-kenane" : "power",
                        toml_number(damage.mixed_mode.empty() ? 1.0 : damage.power));
-    if (kind == "tabulated") {
+    if (law.kind == "tabulated") {
         out += "softening = [\n";
-        for (const auto& point : softening_of(damage, modes[0]))
+        for (const auto& point : softening_of(damage, law.modes[0]))
             out += fmt::format("    [{}, {}],\n", toml_number(point[0]), toml_number(point[1]));
         out += "]\n";
     }
@@ -376,7 +427,7 @@ std::string DeckLaws::law(const std::string& of, const std::string& name, const 
     const std::size_t alike = ++alike_[name];
     if (alike > 1) known->second = fmt::format("{} ({})", name, alike);
     text_ += law_text(known->second, stiffness, thickness, damage, dimension_, place, deck_.changed) + "\n";
-    if (shears_differ(stiffness, dimension_)) sheared_.insert(known->second);
+    if (second_shear_differs(stiffness, damage, dimension_)) with_axes_.insert(known->second);
     return known->second;
 }
 

@@ -23,8 +23,8 @@ public:
     std::string of_material(const MaterialCards& material, double thickness);  // of cohesive elements
     std::string of_interaction(const InteractionCards& interaction);           // of surfaces
 
-    // True if the law has two stiffnesses in shear.
-    [[nodiscard]] bool two_shears(const std::string& law) const { return sheared_.contains(law); }
+    // True if the law has other numbers in the second direction of sliding.
+    [[nodiscard]] bool has_axes(const std::string& law) const { return with_axes_.contains(law); }
     // All of them, as [[laws]].
     [[nodiscard]] const std::string& text() const { return text_; }
 
@@ -38,7 +38,7 @@ private:
     std::int32_t dimension_;
     double edge_;
     std::string text_;
-    std::set<std::string> sheared_;
+    std::set<std::string> with_axes_;
     std::map<std::string, std::size_t> alike_;                     // numbers of laws of a name
     std::map<std::pair<std::string, double>, std::string> names_;  // by what gives the law, and its thickness
 };

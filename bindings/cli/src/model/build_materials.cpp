@@ -166,7 +166,7 @@ void set_tangents(Model& model, const Scene& scene) {
         std::vector<double> directions;
         if (data.shear_axis)
             directions.assign(data.shear_axis->begin(), data.shear_axis->end());
-        else if (two_shears(scene.laws[data.law]))
+        else if (has_axes(scene.laws[data.law]))
             directions = axes_of_material(model, scene, index, data.place);
         if (directions.empty()) continue;
         call(model.context.get(),

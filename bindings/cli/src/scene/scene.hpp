@@ -70,9 +70,12 @@ struct LawData {
 
 // Returns a number of a law by its key; 0: the law does not give it.
 double law_number(const LawData& law, std::string_view key);
-// True if the law has two stiffnesses in shear.
-bool two_shears(const LawData& law);
-// Returns the peak of the traction in a mode, "normal" or "tangential"; 0: the law has none, or does not give it.
+// True if the law gives numbers of its own for the second shear, so that the tangents of a pair are its axes.
+bool has_axes(const LawData& law);
+// Returns the law whose first shear is the second one of this law.
+LawData with_second_shear(const LawData& law);
+// Returns the peak of the traction in a mode, "normal", "tangential" or "second_tangential"; 0: the law has none, or
+// does not give it.
 double law_peak(const LawData& law, const std::string& mode);
 
 // Adhesion of the pairs of an interface inside a box (in-plane between layers, in space in a mesh) or of a set of nodes

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "law/adhesion_after.hpp"
-#include "law/mixity.hpp"
+#include "law/driving.hpp"
 
 namespace delam {
 
@@ -20,18 +20,17 @@ constexpr std::int64_t most_turns = 100;
 // Tolerance, relative to the share that a part may take: the state that is kept may lie above the bound by what the
 // stopping test allows.
 constexpr double at_the_bound = 1e-3;
-constexpr double mixity_difference = 1e-6;  // of the derivative by B
 
 }  // namespace
 
-ConvergedIncrement::ConvergedIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity,
+ConvergedIncrement::ConvergedIncrement(const PairLaws& pairs, const State& before, const PairMixities& mixity,
                                        StepLimits limits, const StepRule* like)
     : FrozenIncrement(pairs, before, mixity, limits, like),
       swing_(mixity.size()),
-      mixity_begun_(mixity.begin(), mixity.end()),
+      mixity_begun_(mixity),
       least_(mixity.size(), -1.0) {}
 
-std::unique_ptr<StepRule> ConvergedIncrement::starting_at(std::span<const double> mixity) const {
+std::unique_ptr<StepRule> ConvergedIncrement::starting_at(const PairMixities& mixity) const {
     return std::make_unique<ConvergedIncrement>(pairs_, before_, mixity, limits_, this);
 }
 
@@ -42,8 +41,8 @@ void ConvergedIncrement::begin_observation() {
 
 bool ConvergedIncrement::observe(std::size_t pair, const Driving& y) {
     if (!pairs_.mixed(pair) || !tells_mixity(*pairs_.law[pair], y, largest_)) return false;
-    const double shown = mode_mixity(y.normal, y.tangential);
-    now_.own[pair] = shown;
+    const Mixity shown = y.mixity();
+    now_.own.set(pair, shown);
     if (shown == now_.used[pair]) return false;
     const Toughness from = now_.toughness[pair], to = pairs_.law[pair]->toughness(shown);
     const double onset = from.onset > 0.0 ? to.onset / from.onset - 1.0 : 0.0, total = to.total / from.total - 1.0;
@@ -67,10 +66,10 @@ bool ConvergedIncrement::observe(std::size_t pair, const Driving& y) {
     swing.open = (1.0 - swing.share) * std::abs(change);
     if (swing.share <= 0.0) return false;
     if (swing.share >= 1.0) {
-        now_.used[pair] = shown;
+        now_.used.set(pair, shown);
         now_.toughness[pair] = to;
     } else {
-        now_.used[pair] += swing.share * (shown - now_.used[pair]);
+        now_.used.set(pair, now_.used[pair] + swing.share * (shown - now_.used[pair]));
         now_.toughness[pair] = pairs_.law[pair]->toughness(now_.used[pair]);
     }
     return now_.toughness[pair].onset != from.onset || now_.toughness[pair].total != from.total;
@@ -82,7 +81,7 @@ bool ConvergedIncrement::settled(const State& state) {
     double open = 0.0;
     for (std::size_t p = 0; p < swing_.size(); ++p) {
         if (now_.used[p] == now_.own[p]) continue;
-        now_.used[p] = now_.own[p];
+        now_.used.set(p, now_.own[p]);
         now_.toughness[p] = pairs_.law[p]->toughness(now_.own[p]);
         if (swing_[p].share > 0.0) open = std::max(open, swing_[p].open);
     }
@@ -125,13 +124,14 @@ bool ConvergedIncrement::stopped(std::span<const double> adhesion) const {
     return false;
 }
 
-void ConvergedIncrement::adopt(std::span<const double> mixity, State& start) const {
+void ConvergedIncrement::adopt(const PairMixities& mixity, State& start) const {
     for (std::size_t p = 0; p < start.adhesion.size(); ++p)
-        if (start.adhesion[p] <= 0.0) start.mixity[p] = mixity[p];
+        if (start.adhesion[p] <= 0.0) start.mixity.set(p, mixity[p]);
 }
 
-// The driving energy that a pair needs is D(B, zeta), so omega loses dD/dB dB/dj, where B = Y_t/Y gives
-// dB/dj_n = -B k_n j_n / Y and dB/dj_t = (1 - B) k_t j_t / Y.
+// The driving energy that a pair needs is D(B, S, zeta), so omega loses dD/dB dB/dj, where B = Y_t/Y gives
+// dB/dj_n = -B k_n j_n / Y and dB/dj_t = (1 - B) k_t j_t / Y, and dD/dS dS/dj, where S = Y_2/Y_t gives
+// dS/dj_1 = -S k_1 j_1 / Y_t and dS/dj_2 = (1 - S) k_2 j_2 / Y_t.
 void ConvergedIncrement::add_mixity(PairDirection& direction, const State& state) const {
     const std::size_t p = direction.pair;
     const Law& law = *pairs_.law[p];
@@ -139,13 +139,15 @@ void ConvergedIncrement::add_mixity(PairDirection& direction, const State& state
     const std::span<const double> jump = local(state.response.jump, p);
     const Driving y = driving_energy(law, jump);
     if (!tells_mixity(law, y, largest_driving(pairs_, state.response.jump))) return;
-    const double b = mode_mixity(y.normal, y.tangential), zeta = state.adhesion[p];
-    const double below = std::max(0.0, b - mixity_difference), above = std::min(1.0, b + mixity_difference);
-    const double slope =
-        (law.driving(law.toughness(above), zeta) - law.driving(law.toughness(below), zeta)) / (above - below);
+    const auto [b, second] = y.mixity();
+    const double zeta = state.adhesion[p];
+    const double slope = driving_by_shear(law, {b, second}, zeta);
     for (std::size_t c = 0; c < jump.size(); ++c) {
         direction.form[c] -= slope * (c == 0 ? -b : 1.0 - b) * law.stiffness(c) * jump[c] / y.total();
     }
+    const double turning = driving_by_second(law, {b, second}, zeta);
+    for (std::size_t c = 1; c < jump.size() && turning != 0.0; ++c)
+        direction.form[c] -= turning * (c == 1 ? -second : 1.0 - second) * law.stiffness(c) * jump[c] / y.tangential;
 }
 
 }  // namespace delam

@@ -13,9 +13,9 @@ namespace delam {
 
 class ConvergedIncrement final : public FrozenIncrement {
 public:
-    ConvergedIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
+    ConvergedIncrement(const PairLaws& pairs, const State& before, const PairMixities& mixity, StepLimits limits,
                        const StepRule* like = nullptr);
-    std::unique_ptr<StepRule> starting_at(std::span<const double> mixity) const override;
+    std::unique_ptr<StepRule> starting_at(const PairMixities& mixity) const override;
 
     using StepRule::observe;
     bool observe(std::size_t pair, const Driving& y) override;
@@ -28,7 +28,7 @@ public:
     bool in_parts() const override { return true; }
     bool stopped(std::span<const double> adhesion) const override;
     bool follows_iterates() const override { return true; }
-    void adopt(std::span<const double> mixity, State& start) const override;
+    void adopt(const PairMixities& mixity, State& start) const override;
 
 protected:
     void begin_observation() override;
@@ -49,7 +49,7 @@ private:
 
     std::vector<Swing> swing_;
     bool lags_ = false;
-    std::vector<double> mixity_begun_;
+    PairMixities mixity_begun_;
     mutable std::vector<double> least_;  // computed when asked for; before that: -1
 };
 

@@ -22,7 +22,7 @@ namespace delam {
 class CurvedDisplacement {
 public:
     // mixity: B of jumps that are rounding, [pairs].
-    CurvedDisplacement(const PairLaws& pairs, std::span<const double> adhesion, std::span<const double> mixity)
+    CurvedDisplacement(const PairLaws& pairs, std::span<const double> adhesion, const PairMixities& mixity)
         : pairs_(pairs), adhesion_(adhesion), mixity_(mixity) {}
 
     // True if the energy is a quadratic form after all, because no adhesion lies between 0 and 1.
@@ -40,10 +40,13 @@ private:
     double interface_energy(std::span<const double> jump) const;
     // Largest difference between the forces of the law and those of the solution, over the largest force.
     double mismatch(const std::vector<std::uint8_t>& closed, const Response& response) const;
-    VariationalPair pair(std::size_t p, double largest) const { return {*pairs_.law[p], mixity_[p], 0.0, largest}; }
+    VariationalPair pair(std::size_t p, double largest) const {
+        return {*pairs_.law[p], mixity_[p].shear, 0.0, largest};
+    }
 
     const PairLaws& pairs_;
-    std::span<const double> adhesion_, mixity_;
+    std::span<const double> adhesion_;
+    const PairMixities& mixity_;
 };
 
 }  // namespace delam

@@ -5,7 +5,7 @@
 
 namespace delam {
 
-std::unique_ptr<StepRule> FrozenIncrement::starting_at(std::span<const double> mixity) const {
+std::unique_ptr<StepRule> FrozenIncrement::starting_at(const PairMixities& mixity) const {
     return std::make_unique<FrozenIncrement>(pairs_, before_, mixity, limits_, this);
 }
 
@@ -22,7 +22,7 @@ bool FrozenIncrement::displace(const DisplacementSolve& solve, State& state) con
     return solve(spring_stiffness(pairs_, state.adhesion), {}, state.closed, state.response);
 }
 
-double FrozenIncrement::cost(std::span<const double> mixity, std::span<const double> adhesion) const {
+double FrozenIncrement::cost(const PairMixities& mixity, std::span<const double> adhesion) const {
     return dissipation(pairs_, mixity, before_.adhesion, adhesion);
 }
 

@@ -9,15 +9,15 @@ namespace delam {
 
 class FrozenIncrement : public StepRule {
 public:
-    FrozenIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
+    FrozenIncrement(const PairLaws& pairs, const State& before, const PairMixities& mixity, StepLimits limits,
                     const StepRule* like = nullptr)
         : StepRule(pairs, before, mixity, limits, like) {}
-    std::unique_ptr<StepRule> starting_at(std::span<const double> mixity) const override;
+    std::unique_ptr<StepRule> starting_at(const PairMixities& mixity) const override;
 
     double energy(std::span<const double> adhesion, std::span<const double> jump) const override;
     std::vector<double> damage_step(std::span<const double> adhesion, std::span<const double> jump) const override;
     bool displace(const DisplacementSolve& solve, State& state) const override;
-    double cost(std::span<const double> mixity, std::span<const double> adhesion) const override;
+    double cost(const PairMixities& mixity, std::span<const double> adhesion) const override;
     double energy_before() const override { return before_.ledger.energy(); }
     std::vector<PairDirection> directions(const State& state) const override;
 

@@ -17,7 +17,7 @@ namespace {
 constexpr double tolerated_error = 0.1;  // of the dissipated energy, relative
 
 template <class Rule>
-std::unique_ptr<StepRule> make(const PairLaws& pairs, const State& before, std::span<const double> mixity,
+std::unique_ptr<StepRule> make(const PairLaws& pairs, const State& before, const PairMixities& mixity,
                                StepLimits limits) {
     return std::make_unique<Rule>(pairs, before, mixity, limits);
 }
@@ -26,7 +26,7 @@ std::unique_ptr<StepRule> make(const PairLaws& pairs, const State& before, std::
 
 struct MixityRule::Row {
     const char* word;
-    std::unique_ptr<StepRule> (*make)(const PairLaws&, const State&, std::span<const double>, StepLimits);
+    std::unique_ptr<StepRule> (*make)(const PairLaws&, const State&, const PairMixities&, StepLimits);
     bool keeps_broken;     // a broken pair keeps the mixity with which it broke
     bool before_is_start;  // mixity_before is that of the displacements before the step, else of the step before
     const char* cure;      // of an error of its mixities, besides smaller steps; null: no warning
@@ -49,15 +49,15 @@ MixityRule::MixityRule(const PairLaws& pairs, const std::string& word)
 
 bool MixityRule::follows_path() const { return row_->keeps_broken; }
 
-std::unique_ptr<StepRule> MixityRule::increment(const PairLaws& pairs, const State& before,
-                                                std::span<const double> mixity, StepLimits limits) const {
+std::unique_ptr<StepRule> MixityRule::increment(const PairLaws& pairs, const State& before, const PairMixities& mixity,
+                                                StepLimits limits) const {
     return row_->make(pairs, before, mixity, limits);
 }
 
 void MixityRule::begin(const PairLaws& pairs, const State& before, State& start) const {
     start.mixity = mixities(pairs, before.response.jump, before.mixity);
     for (std::size_t p = 0; p < start.mixity.size() && row_->keeps_broken; ++p)
-        if (before.adhesion[p] <= 0.0) start.mixity[p] = before.mixity[p];
+        if (before.adhesion[p] <= 0.0) start.mixity.set(p, before.mixity[p]);
     start.mixity_before = row_->before_is_start ? start.mixity : before.mixity;
 }
 

@@ -27,7 +27,7 @@ public:
     MixityRule(const PairLaws& pairs, const std::string& word);
 
     // A step from the state `before`, which must outlive it, minimised from these mixities, [pairs].
-    std::unique_ptr<StepRule> increment(const PairLaws& pairs, const State& before, std::span<const double> mixity,
+    std::unique_ptr<StepRule> increment(const PairLaws& pairs, const State& before, const PairMixities& mixity,
                                         StepLimits limits) const;
     // True if what a step dissipates depends on its path.
     bool follows_path() const;

@@ -17,10 +17,10 @@ constexpr double gradual = 0.1;
 
 }  // namespace
 
-StepRule::StepRule(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
+StepRule::StepRule(const PairLaws& pairs, const State& before, const PairMixities& mixity, StepLimits limits,
                    const StepRule* like)
     : Increment(pairs, before), limits_(limits) {
-    now_.used.assign(mixity.begin(), mixity.end());
+    now_.used = mixity;
     now_.own = now_.used;
     if (like == nullptr) {
         now_.toughness = toughnesses(pairs, mixity);
@@ -121,8 +121,7 @@ bool StepRule::observe(std::span<const double> adhesion, std::span<const double>
 }
 
 bool StepRule::observe(std::size_t pair, const Driving& y) {
-    if (pairs_.mixed(pair) && tells_mixity(*pairs_.law[pair], y, largest_))
-        now_.own[pair] = mode_mixity(y.normal, y.tangential);
+    if (pairs_.mixed(pair) && tells_mixity(*pairs_.law[pair], y, largest_)) now_.own.set(pair, y.mixity());
     return false;
 }
 
@@ -141,11 +140,7 @@ void StepRule::record(State& state) const {
     state.outcome.mixity_held = held();
 }
 
-void StepRule::restore(const Memory& memory) {
-    std::copy(memory.used.begin(), memory.used.end(), now_.used.begin());
-    std::copy(memory.own.begin(), memory.own.end(), now_.own.begin());
-    std::copy(memory.toughness.begin(), memory.toughness.end(), now_.toughness.begin());
-}
+void StepRule::restore(const Memory& memory) { now_ = memory; }
 
 void record_energies(const PairLaws& pairs, State& state) {
     Ledger& ledger = state.ledger;

@@ -25,7 +25,7 @@ struct StepLimits {
 class StepRule : public Increment, public StepMixities, public StepAccount {
 public:
     // The same step with a minimisation that starts at other mixities, [pairs].
-    virtual std::unique_ptr<StepRule> starting_at(std::span<const double> mixity) const = 0;
+    virtual std::unique_ptr<StepRule> starting_at(const PairMixities& mixity) const = 0;
     // Is the step followed in parts, each an increment of its own (step/inner_path.hpp)?
     virtual bool in_parts() const { return false; }
     // Has the bound of the part stopped the damage of a pair?
@@ -53,10 +53,8 @@ public:
     void record(State& state) const override;
     const Memory& memory() const override { return now_; }
     void restore(const Memory& memory) override;
-    void adopt(std::span<const double> /*mixity*/, State& /*start*/) const override {}
-    std::vector<double> shown(std::span<const double> /*jump*/, std::vector<double> mixity) const override {
-        return mixity;
-    }
+    void adopt(const PairMixities& /*mixity*/, State& /*start*/) const override {}
+    PairMixities shown(std::span<const double> /*jump*/, PairMixities mixity) const override { return mixity; }
 
     bool follows_iterates() const override { return false; }
     bool bounds_candidates() const override { return true; }
@@ -64,9 +62,9 @@ public:
 
 protected:
     // mixity: [pairs]. like: a step of the same laws, from which toughnesses at equal mixities are taken.
-    StepRule(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
+    StepRule(const PairLaws& pairs, const State& before, const PairMixities& mixity, StepLimits limits,
              const StepRule* like = nullptr);
-    virtual const std::vector<double>& recorded() const { return now_.used; }
+    virtual const PairMixities& recorded() const { return now_.used; }
     virtual void begin_observation() {}
     // Records the split of PANM 15 (2010), at the mixities of the state.
     virtual void record_rule(State& next, double energy_change_linear) const = 0;

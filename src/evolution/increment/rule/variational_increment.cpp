@@ -17,12 +17,12 @@ constexpr double same_as_spring = 1e-12;
 
 }  // namespace
 
-std::unique_ptr<StepRule> VariationalIncrement::starting_at(std::span<const double> mixity) const {
+std::unique_ptr<StepRule> VariationalIncrement::starting_at(const PairMixities& mixity) const {
     return std::make_unique<VariationalIncrement>(pairs_, before_, mixity, limits_, this);
 }
 
 double VariationalIncrement::energy(std::span<const double> adhesion, std::span<const double> jump) const {
-    const std::vector<double> own = mixities(pairs_, jump, now_.used);
+    const PairMixities own = mixities(pairs_, jump, now_.used);
     return stored_energy(pairs_, adhesion, jump) + stored_linear(pairs_, own, adhesion) +
            dissipation_linear(pairs_, now_.used, before_.adhesion, adhesion);
 }
@@ -86,11 +86,11 @@ PairModel VariationalIncrement::model(std::size_t p, std::span<const double> loc
     return m;
 }
 
-double VariationalIncrement::cost(std::span<const double> mixity, std::span<const double> adhesion) const {
+double VariationalIncrement::cost(const PairMixities& mixity, std::span<const double> adhesion) const {
     return dissipation_linear(pairs_, mixity, before_.adhesion, adhesion) + stored_linear(pairs_, mixity, adhesion);
 }
 
-std::vector<double> VariationalIncrement::shown(std::span<const double> jump, std::vector<double> mixity) const {
+PairMixities VariationalIncrement::shown(std::span<const double> jump, PairMixities mixity) const {
     return mixities(pairs_, jump, mixity);
 }
 
@@ -98,7 +98,7 @@ std::vector<double> VariationalIncrement::shown(std::span<const double> jump, st
 void VariationalIncrement::record_rule(State& next, double energy_change_linear) const {
     Ledger& ledger = next.ledger;
     const double dissipated = dissipation_linear(pairs_, next.mixity_before, before_.adhesion, next.adhesion);
-    const std::vector<double>& last = before_.loaded != 0 ? before_.mixity_before : next.mixity_before;
+    const PairMixities& last = before_.loaded != 0 ? before_.mixity_before : next.mixity_before;
     ledger.dissipated_linear = before_.ledger.dissipated_linear + dissipated;
     ledger.increment = energy_change_linear + dissipated;
     ledger.increment_lower = energy_change_linear + dissipation_linear(pairs_, last, before_.adhesion, next.adhesion);
@@ -124,7 +124,7 @@ std::vector<PairDirection> VariationalIncrement::beside_springs(const State& sta
     for (std::size_t p = 0; p < state.adhesion.size(); ++p) {
         if (!pairs_.mixed(p) || !(state.adhesion[p] > 0.0)) continue;
         const Law& law = *pairs_.law[p];
-        const double before = state.mixity_before[p];
+        const double before = state.mixity_before[p].shear;
         const VariationalPair own{law, before, law.toughness(before).total, largest};
         const std::span<const double> jump = local(state.response.jump, p);
         const std::array<double, 9> tangent =

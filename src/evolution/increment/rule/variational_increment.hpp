@@ -11,10 +11,10 @@ namespace delam {
 
 class VariationalIncrement final : public StepRule {
 public:
-    VariationalIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
+    VariationalIncrement(const PairLaws& pairs, const State& before, const PairMixities& mixity, StepLimits limits,
                          const StepRule* like = nullptr)
         : StepRule(pairs, before, mixity, limits, like) {}
-    std::unique_ptr<StepRule> starting_at(std::span<const double> mixity) const override;
+    std::unique_ptr<StepRule> starting_at(const PairMixities& mixity) const override;
 
     double energy(std::span<const double> adhesion, std::span<const double> jump) const override;
     std::vector<double> damage_step(std::span<const double> adhesion, std::span<const double> jump) const override;
@@ -23,22 +23,22 @@ public:
     PairMinimum minimum(std::size_t pair, std::span<const double> local_jump) const override;
     PairModel model(std::size_t pair, std::span<const double> local_jump, double adhesion,
                     double fraction) const override;
-    double cost(std::span<const double> mixity, std::span<const double> adhesion) const override;
+    double cost(const PairMixities& mixity, std::span<const double> adhesion) const override;
     double energy_before() const override { return before_.ledger.energy_linear(); }
     bool quadratic() const override { return false; }
     bool bounds_candidates() const override { return false; }
-    std::vector<double> shown(std::span<const double> jump, std::vector<double> mixity) const override;
+    PairMixities shown(std::span<const double> jump, PairMixities mixity) const override;
     std::vector<PairDirection> directions(const State& state) const override;
     std::vector<PairDirection> held_directions(const State& state) const override;
 
 protected:
-    const std::vector<double>& recorded() const override { return now_.own; }
+    const PairMixities& recorded() const override { return now_.own; }
     void record_rule(State& next, double energy_change_linear) const override;
 
 private:
     std::vector<PairDirection> beside_springs(const State& state, bool held) const;
     VariationalPair pair(std::size_t p) const {
-        return {*pairs_.law[p], now_.used[p], now_.toughness[p].total, largest_};
+        return {*pairs_.law[p], now_.used[p].shear, now_.toughness[p].total, largest_};
     }
 };
 

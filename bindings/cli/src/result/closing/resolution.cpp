@@ -133,10 +133,13 @@ Advice advice_for(const Model& model, const LawData& law, const Needs& needs) {
             100 * needs.share, stiffest * needs.stiffness);
     }
     // Another stiffness would change the peaks of a law with given onsets.
-    const bool onsets = law_number(law, "normal_onset") + law_number(law, "tangential_onset") > 0;
+    const bool onsets = law_number(law, "normal_onset") + law_number(law, "tangential_onset") +
+                            law_number(law, "second_tangential_onset") >
+                        0;
     if (!unresolved && !(apart && onsets)) return out;
-    for (const std::size_t mode : {std::size_t{0}, std::size_t{1}}) {
-        const std::string name = mode == 0 ? "normal" : "tangential";
+    for (const auto& [name, mode] :
+         {std::pair(std::string("normal"), std::size_t{0}), std::pair(std::string("tangential"), std::size_t{1}),
+          std::pair(std::string("second_tangential"), std::size_t{1})}) {
         const double peak = law_peak(law, name);
         if (!(peak > 0)) continue;
         const bool lower = unresolved && needs.strength[mode] < peak;
@@ -198,12 +201,15 @@ Waiting waiting_of(const Rows& rows, const Model& model, const Scene& scene) {
     for (std::size_t k = 0; k < mixities.size(); ++k) mixities[k] = static_cast<double>(k) / parts;
     for (const InterfaceData& data : model.interfaces) {
         if (data.bonded || data.contact) continue;
-        std::vector<double> onset(mixities.size()), total(mixities.size());
-        call(model.context.get(),
-             delam_law_toughness(law_of(model, scene.laws[data.law]).get(), static_cast<std::int64_t>(mixities.size()),
-                                 mixities.data(), onset.data(), total.data()),
-             std::string("toughness"));
-        out.toughness = std::max(out.toughness, *std::max_element(total.begin(), total.end()));
+        const LawData& law = scene.laws[data.law];
+        for (const LawData& along : {law, with_second_shear(law)}) {  // either shear
+            std::vector<double> onset(mixities.size()), total(mixities.size());
+            call(model.context.get(),
+                 delam_law_toughness(law_of(model, along).get(), static_cast<std::int64_t>(mixities.size()),
+                                     mixities.data(), onset.data(), total.data()),
+                 std::string("toughness"));
+            out.toughness = std::max(out.toughness, *std::max_element(total.begin(), total.end()));
+        }
     }
     const bool means = !rows.empty() && rows.front().contains("energy_release_rate_mean");
     for (std::size_t i = 1; i < rows.size(); ++i) {  // the initial state is not minimised

@@ -98,8 +98,6 @@ KeyTable law_table() {
         if (kinds.size() < laws.all.size())
             table.rules.push_back(
                 {KeyRule::only_where, {key}, {"kind"}, kinds, fmt::format("is for kind {}", fmt::join(kinds, ", "))});
-        const auto needed = laws.needed.find(key);
-        if (needed == laws.needed.end()) continue;
         // A strength takes the place of an onset.
         std::vector<std::string> keys{key};
         if (const std::size_t end = key.find("_onset"); end != std::string::npos) {
@@ -107,6 +105,8 @@ KeyTable law_table() {
             table.rules.push_back(
                 {KeyRule::at_most_one, {keys[1], keys[0]}, {}, {}, "is given instead of " + key + ": give one"});
         }
+        const auto needed = laws.needed.find(key);
+        if (needed == laws.needed.end()) continue;
         const std::string what = table.rows.back().kind == KeyKind::points ? "a table" : "a number";
         table.rules.push_back({KeyRule::needed_where,
                                keys,
@@ -195,8 +195,8 @@ KeyTable interface_table() {
         numbers_key("shear_axis")
             .entries(3, 3)
             .otherwise("axis 1 of the material of a (of the lower layer), or x")
-            .says("direction of the first tangent, along which tangential_stiffness acts beside a "
-                  "second_tangential_stiffness; 3D"),
+            .says("direction of the first tangent, along which the tangential numbers of a law act beside its "
+                  "second_tangential ones; 3D"),
         flag_key("bonded").says("instead of a law: bonded perfectly and permanently"),
         flag_key("contact").in_mesh().says("instead of a law: contact without adhesion"),
         flag_key("projected").in_mesh().says("for meshes that do not match: projects b's nodes onto a's faces"),

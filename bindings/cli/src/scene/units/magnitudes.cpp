@@ -156,7 +156,7 @@ std::vector<Magnitude> magnitudes_of(const Scene& scene) {
         }
     }
     for (const LawData& law : scene.laws)
-        for (const char* mode : {"normal", "tangential"}) {
+        for (const char* mode : {"normal", "tangential", "second_tangential"}) {
             const std::string key = law.place.path + "." + mode;
             peaks.take({Quantity::stress, "strength", key + "_strength", law_peak(law, mode)});
             toughnesses.take({Quantity::release_rate, "toughness", key + "_toughness",
