@@ -547,7 +547,7 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
  * `onset_criterion` selects another criterion for the onset alone. With power and onset_exponent = 1, damage begins at
  * (t_n/s_n)^2 + (t_t/s_t)^2 = 1, t being tractions and s their peaks in the pure modes.
  * With other numbers along the second tangent, G_t depends on the share S = Y_2/Y_t of the energy of sliding along it.
- * It follows by the same criterion with an exponent of 1 from the number G_1 of the first tangent and G_2 of the second:
+ * It follows by the same criterion with an exponent of 1 from the numbers G_1 and G_2 of the first and second tangent:
  *   valoroso-champaney, power  1/G_t = (1-S)/G_1 + S/G_2
  *   benzeggagh-kenane          G_t = G_1 + (G_2 - G_1) S
  * mixity_rule = variational does not know such laws; frozen and converged do.
@@ -1448,7 +1448,7 @@ DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, d
  *   - no step is pending
  *   - the pending step comes from delam_solver_equilibrate
  *   - the pending step has replaced earlier steps (backtracking), or has more than one substep (value `substeps`) with
- *     a search or backtracking in each, or with `mixity_rule = variational`
+ *     a search, backtracking or large rotations in each, or with `mixity_rule = variational`
  *   - `mixity_rule = variational` is used with a gradient term
  *   - a force pattern acts along a motion that nothing holds
  * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source J. Simo, R. Taylor, Comput.

@@ -83,8 +83,6 @@ struct Law {
     }
     // True if onset or toughness depends on the direction of sliding.
     bool two_shear_toughnesses() const;
-    // True if the tangents of a pair are axes of its law for either reason.
-    bool has_axes() const { return two_shears() || two_shear_toughnesses(); }
     // Go and Gc as the criterion needs them; not for laws given by the host.
     Modes onset_modes() const;
     Modes total_modes() const;
@@ -110,5 +108,8 @@ struct Law {
     // dg/dB at the same zeta, and at S = 0.
     double dissipated_slope_mixity(double mixity, double zeta) const;
 };
+
+// True if the tangents of a pair are axes of its law: stiffness, onset or toughness differ along them.
+inline bool has_axes(const Law& law) { return law.two_shears() || law.two_shear_toughnesses(); }
 
 }  // namespace delam

@@ -43,8 +43,7 @@ double mixed(const Sheared& law, const double (&g)[3], double b, double s) {
     double low = 0.0, high = 1e6;
     for (int i = 0; i < 200; ++i) {
         const double x = 0.5 * (low + high);
-        const double sum =
-            std::pow((1.0 - b) * x / g[0], p) + std::pow(b * (1.0 - s) * x / g[1] + b * s * x / g[2], q);
+        const double sum = std::pow((1.0 - b) * x / g[0], p) + std::pow(b * (1.0 - s) * x / g[1] + b * s * x / g[2], q);
         (sum > 1.0 ? high : low) = x;
     }
     return low;

@@ -22,7 +22,7 @@ Mixity mixity_of(const CrackedInterface& interface, std::int64_t pair) {
     double shear = 0.0;
     for (const double component : jump.tangential) shear += component * component;
     const double normal = 0.5 * interface.law.normal_stiffness * jump.normal * jump.normal;
-    if (!interface.law.has_axes()) return mode_mixity(normal, 0.5 * interface.law.tangential_stiffness * shear);
+    if (!has_axes(interface.law)) return mode_mixity(normal, 0.5 * interface.law.tangential_stiffness * shear);
     const std::size_t dim = index(interface.mesh.dimension());
     const std::span<const double> local = interface.jump.subspan(index(pair) * dim, dim);
     const Driving y = driving_energy(interface.law, local);

@@ -95,7 +95,7 @@ SymmetryCheck::SymmetryCheck(const Problem& problem)
         for (std::size_t p = 0; p < geometry.weight.size(); ++p) {
             Point normal{}, axis{};
             for (std::size_t k = 0; k < dim_; ++k) normal[k] = geometry.frame[p * dim_ * dim_ + k];
-            if (own.law && own.law->has_axes())
+            if (own.law && has_axes(*own.law))
                 for (std::size_t k = 0; k < dim_; ++k) axis[k] = geometry.frame[(p * dim_ + 1) * dim_ + k];
             pair_.push_back({i, p, kind, nodes(geometry.node_a[p]), nodes(geometry.node_b[p]), normal, axis,
                              own.gap.empty() ? 0.0 : own.gap[p]});

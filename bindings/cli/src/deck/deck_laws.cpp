@@ -294,7 +294,7 @@ Modes modes_of(const Numbers& stiffness, double thickness, const DamageCards& ca
     return modes;
 }
 
-// What the cards of a law mean.
+// Holds what the cards of a law mean.
 struct Judged {
     Modes modes;
     Numbers toughness;
@@ -303,9 +303,7 @@ struct Judged {
 
     static bool differ(double first, double second) { return std::abs(first - second) > 1e-9 * first; }
     [[nodiscard]] bool three() const { return modes.size() > 2; }
-    [[nodiscard]] bool stiffnesses_differ() const {
-        return three() && differ(modes[1].stiffness, modes[2].stiffness);
-    }
+    [[nodiscard]] bool stiffnesses_differ() const { return three() && differ(modes[1].stiffness, modes[2].stiffness); }
     [[nodiscard]] bool onsets_differ() const { return three() && differ(modes[1].onset(), modes[2].onset()); }
     [[nodiscard]] bool toughnesses_differ() const { return three() && differ(toughness[1], toughness[2]); }
 };
