@@ -219,8 +219,8 @@ def test_check_as_json():
           and all(value == found[key] for key, value in without.items() if key not in ("plan", "file")))
     code, out, error = delam("check", "--no-plan", write(SCENE))
     check(f"nor is it told: {out}", code == 0 and "unknowns" in out and "How it is computed" not in out and "effort" not in out)
-    code, _, error = delam("check", "--no-plan", write(changed('fix = ["x", "y"]', 'fix = ["x"]')))
-    check(f"bodies without support are found nevertheless: {error}", code == 2)
+    code, _, error = delam("check", "--no-plan", write(changed("young = 75e9", "young = -1.0")))
+    check(f"what is wrong is found nevertheless: {error}", code == 2 and "young" in error)
 
 
 def test_progress_as_json():

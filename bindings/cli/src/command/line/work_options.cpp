@@ -29,8 +29,9 @@ Commands add_work(CLI::App& app, Arguments& into) {
     of.check = app.add_subcommand("check", "validate a scene and print what would be computed, and how");
     add_scene(*of.check, into);
     of.check->add_flag("--json", into.check.json, "for programs: one object, with the error of a wrong scene");
-    of.check->add_flag("--no-plan", into.check.no_plan,
-                       "leave out how the scene is computed, and the time and memory that it takes: many times as fast");
+    of.check->add_flag(
+        "--no-plan", into.check.no_plan,
+        "leave out how the scene is computed, and the time and memory that it takes: many times as fast");
     of.check
         ->add_option("--draw", into.check.drawing,
                      "also draw the scene into a file (.svg or .png): bodies, interfaces, notches, supports and loads "
