@@ -26,6 +26,8 @@ std::vector<double> changes_of(const Problem& problem) {
     return times;
 }
 
+bool may_turn(const Problem& problem) { return problem.options.kinematics == "auto"; }
+
 double next_change(const Problem& problem, double time) {
     const std::vector<double> times = changes_of(problem);
     const auto next = std::upper_bound(times.begin(), times.end(), time);
@@ -48,6 +50,8 @@ Problem scene_from(const Problem& problem, double time) {
 
 Problem scene_of(const Problem& problem, const Stage& stage) {
     Problem scene = problem;
+    if (may_turn(problem)) scene.options.kinematics = stage.rotates ? "corotational" : "linear";
+    if (changes_of(problem).empty()) return scene;
     scene.constraints.clear();
     scene.constraint_number = constraints_from(problem, stage.from);
     scene.constraint_total = static_cast<std::int64_t>(problem.constraints.size());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Supports that begin or end within an analysis cut it into stages. The same equations hold all through a stage.
+// Supports that begin or end within an analysis cut it into stages, and so do bodies that begin to rotate (kinematics =
+// auto). The same equations hold all through a stage.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +19,12 @@ struct Stage {
     // [constraints] For each equation that has ended, its reaction then per unit of the factor of its pattern, F;
     // otherwise 0.
     std::vector<double> force;
+    bool rotates = false;  // kinematics = auto: rotations are large in it
     bool operator==(const Stage&) const = default;
 };
 
+// True if kinematics = auto, so that a stage may begin with any step.
+bool may_turn(const Problem& problem);
 // True if equations begin or end after this time.
 bool has_stages(const Problem& problem, double after);
 // The times at which equations begin or end, ascending, each once.

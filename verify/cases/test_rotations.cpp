@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "condensed_scenes.hpp"
+#include "delam/experimental.h"
 #include "elastica.hpp"
 #include "small_analysis.hpp"
 #include "support.hpp"
@@ -82,14 +83,14 @@ void drive(Scene& scene, const std::vector<std::int64_t>& nodes, const std::vect
 }
 
 // A double cantilever beam of arms of 0.5 mm, its ends moved apart by w each.
-Scene double_cantilever(const Beam& beam, double w, double strength = 12.0) {
+Scene double_cantilever(const Beam& beam, double w, const char* kinematics = "corotational") {
     Scene scene = beam.mesh();
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, young, 0.0);
-    scene.law(0, equal_modes(strength, 0.5));
+    scene.law(0, equal_modes(12.0, 0.5));
     beam.cut(scene);
-    scene.text("kinematics", "corotational");
+    scene.text("kinematics", kinematics);
     const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, w});
     const double h = beam.height;
     scene.hold(beam.nodes(scene, 0, beam.length, h), beam.along(0));
@@ -122,6 +123,23 @@ void expect_closed_balance(const Solver& solver, double open, double outside) {
     cases::expect_near(energy + solver.value("dissipated") + solver.value("released"), work, open, work, "balance");
     cases::expect_below(solver.value("lower") - solver.value("increment"), outside * energy, "lower bound");
     cases::expect_below(solver.value("increment") - solver.value("upper"), outside * energy, "upper bound");
+}
+
+// Two beams on each other, notched from the left, bent by w in the middle.
+Scene flexure(const Beam& beam, const LawData& law, double w, const char* kinematics) {
+    Scene scene = beam.mesh();
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, 70e3, 0.0);
+    scene.law(0, law);
+    beam.cut(scene);
+    scene.text("kinematics", kinematics);
+    const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, w});
+    scene.hold(beam.nodes(scene, 0, 0.0, 1.0), {0.0, 1.0});
+    scene.hold(beam.nodes(scene, 0, 100.0, 1.0), {1.0, 0.0});
+    scene.hold(beam.nodes(scene, 0, 100.0, 1.0), {0.0, 1.0});
+    drive(scene, beam.nodes(scene, 0, 50.0, 1.0), {0.0, -1.0}, load);
+    return scene;
 }
 
 }  // namespace
@@ -224,22 +242,10 @@ TEST(dead_force_keeps_its_direction) {
                        "work");
 }
 
-// Two beams on each other, bonded beyond 30 mm, slide along the rest and press on each other where they turn. Numbers
-// of a shooting method for beams.
+// Beams that are bonded beyond the notch slide along it and press on each other where they turn. Numbers of a shooting
+// method for beams.
 TEST(flexure_specimen_stiffens) {
-    const Beam beam{100.0, 1.0, 30.0, 100, 2};
-    Scene scene = beam.mesh();
-    scene.interface(0, 1);
-    scene.begin();
-    scene.elastic(-1, 70e3, 0.0);
-    scene.law(0, {1e5, 1e5, 1e5, 1e5, 1e6, 1e6, 1.0});
-    beam.cut(scene);
-    scene.text("kinematics", "corotational");
-    const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, 15.0});
-    scene.hold(beam.nodes(scene, 0, 0.0, 1.0), {0.0, 1.0});
-    scene.hold(beam.nodes(scene, 0, 100.0, 1.0), {1.0, 0.0});
-    scene.hold(beam.nodes(scene, 0, 100.0, 1.0), {0.0, 1.0});
-    drive(scene, beam.nodes(scene, 0, 50.0, 1.0), {0.0, -1.0}, load);
+    const Scene scene = flexure({100.0, 1.0, 30.0, 100, 2}, {1e5, 1e5, 1e5, 1e5, 1e6, 1e6, 1.0}, 15.0, "corotational");
     Solver solver(scene, 0.0);
     const double expected[][2] = {{2.0, 3.3914}, {5.0, 8.5812}, {10.0, 17.939}, {15.0, 29.104}};
     for (int k = 1; k <= 15; ++k) {
@@ -250,6 +256,40 @@ TEST(flexure_specimen_stiffens) {
         for (const auto& [w, force] : expected)
             if (w == k) cases::expect_near(solver.value("reaction:load"), force, 1.5e-2, force, "force");
     }
+}
+
+// A crack from a short notch jumps. Where the step that holds the jump begins and ends does not matter, and the load is
+// that of small rotations, up to these.
+TEST(jumps_are_located) {
+    const auto found = [](const char* kinematics, int steps) {
+        const Scene scene = flexure({100.0, 1.0, 12.0, 200, 2}, equal_modes(12.0, 0.1), 6.0, kinematics);
+        Solver solver(scene, 0.0);
+        std::int64_t count = 0;
+        double released = 0.0;
+        for (int k = 1; k <= steps; ++k) {
+            solver.step(static_cast<double>(k) / steps);
+            solver.commit();
+            released += solver.value("released");
+        }
+        const double energy = solver.value("stored_bulk") + solver.value("stored_interface");
+        cases::expect_near(energy + solver.value("dissipated") + released, solver.value("work"), 2e-3,
+                           solver.value("work"), "balance");
+        REQUIRE(scene, delam_solver_jump_count, solver.get(), &count);
+        cases::expect(count == 1, std::to_string(count) + " jumps of a crack in " + std::to_string(steps) + " steps");
+        std::array<double, 4> jump{};  // between which times, debonded, released
+        REQUIRE(scene, delam_solver_jump, solver.get(), 0, nullptr, &jump[0], &jump[1], nullptr, nullptr, &jump[3],
+                &jump[2], nullptr, nullptr, nullptr);
+        return jump;
+    };
+    const auto linear = found("linear", 6), few = found("corotational", 6), many = found("corotational", 24);
+    const auto chosen = found("auto", 6);
+    cases::expect_below(few[1] - few[0], 0.02 / 6.0, "the interval of the jump");
+    cases::expect_near(few[1], many[1], 0.02 / 6.0, 1.0, "begin of the jump in few steps and in many");
+    cases::expect_near(few[2], many[2], 0.1, many[2], "length of the jump in few steps and in many");
+    cases::expect_near(few[1], linear[1], 0.03, 1.0, "begin of the jump with large rotations and with small ones");
+    cases::expect_below(20.0, few[2], "length of the jump");
+    for (std::size_t i = 0; i < few.size(); ++i)
+        cases::expect_near(chosen[i], few[i], 1e-5, few[i], "with kinematics = auto, number " + std::to_string(i));
 }
 
 // The same numbers whatever direction the scene has, up to what linearisations leave: 1e-6 of the load.
@@ -352,6 +392,69 @@ TEST(saved_analysis_goes_on_bit_by_bit) {
     walk(resumed, 5, 8);
     cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(whole), "in the end");
     cases::expect(whole.value("dissipated") > 0.0, "the interface is damaged, or nothing was tested");
+}
+
+// Rotations become large in the step in which small ones leave out too much, which begins at the state before. Steps
+// before it have the digits of small rotations, later ones the forces of large ones.
+TEST(rotations_become_large_where_they_must) {
+    const Beam beam{80.0, 0.5, 40.0, 160, 2};
+    const Scene small = double_cantilever(beam, 20.0, "linear"), large = double_cantilever(beam, 20.0),
+                either = double_cantilever(beam, 20.0, "auto");
+    Solver linear(small, 0.0), turned(large, 0.0), chosen(either, 0.0);
+    bool grown = false;
+    std::vector<std::uint8_t> saved;
+    for (int k = 1; k <= 20; ++k) {
+        for (Solver* solver : {&linear, &turned, &chosen}) solver->step(k / 20.0);
+        const bool now = linear.value("rotation_max") > 0.1;
+        if (now && !grown) {  // the step that turns can be taken back
+            const auto first = cases::read_bits(chosen);
+            chosen.rollback();
+            linear.rollback();
+            cases::expect_same(chosen, cases::read_bits(chosen), cases::read_bits(linear), "taken back");
+            for (Solver* solver : {&linear, &chosen}) solver->step(k / 20.0);
+            cases::expect_same(chosen, cases::read_bits(chosen), first, "taken again");
+        }
+        grown = grown || now;
+        for (Solver* solver : {&linear, &turned, &chosen}) solver->commit();
+        const double force = turned.value("reaction:load");
+        if (grown)
+            cases::expect_near(chosen.value("reaction:load"), force, 1e-5, force, "force, step " + std::to_string(k));
+        else
+            cases::expect_same(chosen, cases::read_bits(chosen), cases::read_bits(linear), "small rotations");
+        if (k == 2 || k == 12) saved = chosen.save();
+        if (k == 2) cases::expect(!grown, "the first two steps have small rotations");
+        if (k != 2 && k != 14) continue;
+        Solver resumed(either, 0.0);  // before the rotations are large, and after
+        either.require(resumed.load(saved), "delam_solver_load");
+        for (int s = k == 2 ? 3 : 13; s <= (k == 2 ? 2 : 14); ++s) {
+            resumed.step(s / 20.0);
+            resumed.commit();
+        }
+        cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(chosen), "saved and loaded");
+    }
+    cases::expect(grown && chosen.value("dissipated") > 0.0, "the crack grows with large rotations");
+    for (const char* key : {"work", "stored_bulk", "stored_interface", "dissipated"})
+        cases::expect_near(chosen.value(key), turned.value(key), 1e-5, turned.value("work"), key);
+}
+
+// Scenes that large rotations do not know stay as they are, and the plan says why.
+TEST(rotations_that_cannot_become_large) {
+    Scene scene = double_cantilever({30.0, 0.5, 10.0, 60, 2}, 10.0, "auto");
+    const double strain[] = {1e-9, 0.0, 0.0, 0.0, 0.0, 0.0};
+    scene.require(
+        delam_problem_add_eigenstrain(scene.problem(), scene.pattern("heat", {0.0, 1.0}, {0.0, 1.0}), 0, strain),
+        "delam_problem_add_eigenstrain");
+    Solver solver(scene, 0.0);
+    solver.step(1.0);
+    cases::expect_below(0.2, solver.value("rotation_max"), "rotation");
+    const std::string plan = delam_solver_plan(solver.get());
+    cases::expect(plan.find("large rotations: left out, option kinematics = auto: they do not know eigenstrains") !=
+                      std::string::npos,
+                  plan);
+    const std::int64_t interface = 0;
+    cases::expect(
+        delam_experimental_solver_follow(solver.get(), 1, &interface, "normal_toughness", nullptr) == DELAM_ERROR_STATE,
+        "sensitivities are followed");
 }
 
 TEST(what_rotations_do_not_know_is_refused_by_name) {

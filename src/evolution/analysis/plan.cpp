@@ -13,6 +13,7 @@
 #include "evolution/step/backtrack.hpp"
 #include "evolution/step/pairs_of_scene.hpp"
 #include "scene/advice/scene_warnings.hpp"
+#include "scene/check/kinematics.hpp"
 #include "scene/check/step_control.hpp"
 #include "scene/check/validate_stages.hpp"
 #include "scene/stage.hpp"
@@ -298,6 +299,18 @@ std::optional<PlanItem> stages_of(const Problem& problem) {
         "-"};
 }
 
+// Says what may end a stage. rotates: rotations are large in it.
+void add_stages(std::vector<PlanItem>& items, const Problem& whole, bool rotates) {
+    if (auto stages = stages_of(whole)) items.push_back(std::move(*stages));
+    if (!may_turn(whole) || rotates) return;
+    const std::string unknown = unknown_to_rotations(whole);
+    items.push_back({"large rotations", left_out,
+                     unknown.empty() ? std::string("option kinematics = auto: from the step in which small rotations "
+                                                   "leave out too much, and which is then taken once more")
+                                     : text("option kinematics = auto: they do not know ", unknown),
+                     0.0, 0.0, "-"});
+}
+
 std::string figure(double value, const std::string& unit) { return unit == "-" ? text(value) : text(value, " ", unit); }
 
 }  // namespace
@@ -307,8 +320,7 @@ std::vector<PlanItem> plan_of(const Solver& solver) {
     std::vector<PlanItem> items =
         items_of({solver.problem(), solver.stepper().reduction(), op.description(), "", op.prescribed_rows(),
                   solver.observer().pairs().gradient, solver.control()});
-    if (solver.stage() != nullptr)
-        if (auto stages = stages_of(*solver.stage()->whole)) items.push_back(std::move(*stages));
+    if (solver.stage() != nullptr) add_stages(items, *solver.stage()->whole, solver.stage()->stage.rotates);
     return items;
 }
 
@@ -316,7 +328,7 @@ Forecast forecast(const Problem& problem, Monitor& monitor) {
     validate_stages(problem, -infinite, [&monitor] { monitor.progress("check", 0, 0); });
     const std::vector<double> changes = changes_of(problem);
     std::optional<Problem> before;
-    if (!changes.empty()) before = scene_from(problem, -infinite);
+    if (!changes.empty() || may_turn(problem)) before = scene_from(problem, -infinite);
     const Problem& first = before ? *before : problem;
     const Design design = design_operator(first, monitor);
     const ReductionCost& cost = design.choice.own();
@@ -331,7 +343,7 @@ Forecast forecast(const Problem& problem, Monitor& monitor) {
         // While the first step of a stage is pending, the stage before is still there.
         found.memory = std::max(found.memory, cost.bytes + later.choice.own().bytes);
     }
-    if (auto stages = stages_of(problem)) found.plan.push_back(std::move(*stages));
+    add_stages(found.plan, problem, false);
     return found;
 }
 

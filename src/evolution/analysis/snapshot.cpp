@@ -209,6 +209,7 @@ void write_stage(Writer& w, const Solver& solver) {
     w.item(stage.from);
     w.item(stage.offset);
     w.item(stage.force);
+    if (may_turn(*solver.stage()->whole)) w.item(std::uint64_t{stage.rotates});
 }
 
 std::optional<Stage> read_stage(Reader& r, const Solver& solver) {
@@ -218,6 +219,9 @@ std::optional<Stage> read_stage(Reader& r, const Solver& solver) {
     r.item(stage.from);
     r.item(stage.offset);
     r.item(stage.force);
+    std::uint64_t rotates = 0;
+    if (may_turn(whole)) r.item(rotates);
+    stage.rotates = rotates != 0;
     const auto sound = [&](const std::vector<double>& values, auto member) {
         bool all = values.size() == whole.constraints.size();
         for (std::size_t c = 0; all && c < values.size(); ++c) {
@@ -229,7 +233,8 @@ std::optional<Stage> read_stage(Reader& r, const Solver& solver) {
     const std::vector<double> changes = changes_of(whole);
     const bool begins = std::find(changes.begin(), changes.end(), stage.from) != changes.end();
     if (!std::isfinite(stage.from) || !sound(stage.offset, &Constraint::begin) ||
-        !sound(stage.force, &Constraint::end) || (max_abs(stage.offset) + max_abs(stage.force) > 0.0 && !begins))
+        !sound(stage.force, &Constraint::end) || (max_abs(stage.offset) + max_abs(stage.force) > 0.0 && !begins) ||
+        rotates > 1)
         fail(DELAM_ERROR_SNAPSHOT, "snapshot holds supports from time ", stage.from,
              " on, which this scene cannot have");
     return stage;

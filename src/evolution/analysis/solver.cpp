@@ -21,6 +21,7 @@
 #include "evolution/step/step_control.hpp"
 #include "evolution/step/turned_steps.hpp"
 #include "scene/advice/scene_warnings.hpp"
+#include "scene/check/kinematics.hpp"
 #include "scene/check/step_control.hpp"
 #include "scene/check/validate_stages.hpp"
 
@@ -37,7 +38,7 @@ Problem with_used_control(Problem problem) {
 }
 
 std::optional<StageOf> first_stage(const Problem& problem, Monitor& monitor, double time) {
-    if (changes_of(problem).empty()) return {};
+    if (changes_of(problem).empty() && !may_turn(problem)) return {};
     validate_stages(problem, time, [&monitor] { monitor.progress("check", 0, 0); });
     const std::vector<double> none(problem.constraints.size(), 0.0);
     return StageOf{std::make_shared<const Problem>(problem), {time, none, none}, next_change(problem, time)};
@@ -45,7 +46,7 @@ std::optional<StageOf> first_stage(const Problem& problem, Monitor& monitor, dou
 
 // Constraints that end before the analysis, or begin in it, do not hold in the first scene.
 Problem scene_at(const Problem& problem, double time) {
-    return changes_of(problem).empty() ? problem : scene_from(problem, time);
+    return changes_of(problem).empty() && !may_turn(problem) ? problem : scene_from(problem, time);
 }
 
 // Returns the operator that reads the states, after bodies that rotate have got steps of their own.
@@ -102,6 +103,8 @@ Solver::Solver(std::optional<StageOf> stage, const Problem& problem, std::uint64
       stepper_(problem_, monitor, Stepper::Checks::made_here, other != nullptr ? &other->stepper_ : nullptr),
       graph_(problem_.mesh->interfaces()),
       states_(keeps_past(problem_.options) ? problem_.options.backtracking_depth : 0),
+      may_turn_(stage_ && may_turn(*stage_->whole) && !stage_->stage.rotates &&
+                unknown_to_rotations(*stage_->whole).empty()),
       observer_(problem_, reading_operator(stepper_, problem_, monitor), stepper_.pairs(), stepper_.contact(),
                 stepper_.initial_adhesion(), stepper_.design().in_engine),
       warnings_(problem_, monitor) {}
@@ -133,9 +136,10 @@ Solver::Solver(StageOf stage, const Solver& before, std::span<const double> disp
         return;
     }
     const State& there = before.states_.committed();
+    const std::string what = stage.stage.rotates ? "a stage with large rotations begins: " : "supports begin or end: ";
     problem_.patterns = before.problem_.patterns;
     Stepper::Result begun = take_over(stepper_, there, displacement);
-    if (!begun.converged) fail(DELAM_ERROR_NUMERICAL, "supports begin or end: ", unconverged_displacement(there).text);
+    if (!begun.converged) fail(DELAM_ERROR_NUMERICAL, what, unconverged_displacement(there).text);
     require_sound(problem_, begun.state, true);
     adopt(chosen(begun.state.growth.way, begun.state.ledger.dissipated, false));
     whole_ = before.whole_;
@@ -146,7 +150,7 @@ Solver::Solver(StageOf stage, const Solver& before, std::span<const double> disp
     observer_.show(states_.committed());
     Outcome balance;
     judge_balance(states_.committed(), balance);
-    if (balance.status != 0) fail(DELAM_ERROR_NUMERICAL, "supports begin or end: ", balance.text);
+    if (balance.status != 0) fail(DELAM_ERROR_NUMERICAL, what, balance.text);
 }
 
 bool share_bodies(const Solver& other, const Problem& problem) {
@@ -229,14 +233,16 @@ Outcome Solver::advance(double time) {
                                      : stepper_.step(committed, time);
     }
     for (auto& [step, state] : chain.revised()) note_jump(chain.at(step - 1), state, pending.jumps);
-    if (controls_steps(options)) {
+    const State& from = chain.at(committed.step);
+    const bool halved = control_.located > 0.0 && delam::jumps(stepper_.pairs(), graph_, from, result.state);
+    if (controls_steps(options) || halved) {
         ControlledStep controlled =
-            controlled_step(stepper_, graph_, chain.at(committed.step), std::move(result), options);
+            controlled_step(stepper_, graph_, from, std::move(result), options, control_.located);
         result = std::move(controlled.result);
         pending.parts = std::move(controlled.parts);
         std::ranges::move(controlled.jumps, std::back_inserter(pending.jumps));
     } else if (!follows_load(options)) {
-        note_jump(chain.at(committed.step), result.state, pending.jumps);
+        note_jump(from, result.state, pending.jumps);
     }
     pending.state = std::move(result.state);
     if (whole_) pending.state.growth.way = 2;
@@ -245,6 +251,16 @@ Outcome Solver::advance(double time) {
     require_sound(problem_, pending.state, result.converged);
     for (const State& revised : pending.revised) require_sound(problem_, revised, result.converged);
     warned_of_mixity_ = warned_of_mixity_ || stepper_.warn(pending.state);
+    if (may_turn_) {
+        observer_.show(pending.state);
+        if (const std::string why = rotations_.judge(observer_, pending.state); !why.empty()) {
+            monitor_.log(1, text("step ", pending.state.step, " at time ", time, ": ", why, "; from time ",
+                                 committed.time, " on rotations are large (kinematics = auto)"));
+            states_.propose(std::move(pending));
+            observer_.show(states_.present());
+            return {DELAM_OK, "", true};
+        }
+    }
     warnings_.judge_front(observer_, committed, pending.state);
     warnings_.judge_ledger(pending.state, options);
     warnings_.judge_symmetry(graph_, committed, pending.state);
@@ -341,11 +357,11 @@ std::vector<double> Solver::step_tangent() {
         fail(DELAM_ERROR_STATE, "step tangent: not available, because backtracking has replaced the steps from ",
              pending->revised.front().step, " on");
     if (pending->parts.size() > 1) {
-        if (keeps_past(problem_.options))
+        if (keeps_past(problem_.options) || problem_.options.kinematics != "linear")
             fail(DELAM_ERROR_STATE, "step tangent: not available, because the step was divided into ",
                  pending->parts.size(),
                  " substeps (step_control, jump_tolerance or mixity_step_tolerance), with a search "
-                 "(solution = energetic) or backtracking in each");
+                 "(solution = energetic), backtracking or large rotations in each");
         return parts_tangent(stepper_, problem_.patterns, states_.committed(), pending->parts);
     }
     return stepper_.step_tangent(states_.committed(), pending->state);
@@ -361,6 +377,8 @@ void Solver::take_whole_steps() {
 std::int64_t Solver::follow(std::span<const std::int64_t> interfaces, const std::string& key) {
     if (problem_.options.kinematics != "linear")
         fail(DELAM_ERROR_STATE, "sensitivities are not followed with kinematics = ", problem_.options.kinematics);
+    if (stage_ && may_turn(*stage_->whole))
+        fail(DELAM_ERROR_STATE, "sensitivities are not followed with kinematics = auto: use linear");
     if (stage_) fail(DELAM_ERROR_STATE, "sensitivities are not followed where supports begin or end");
     const State& committed = states_.committed();
     if (states_.pending() != nullptr || committed.step != 0)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "evolution/analysis/rotation_watch.hpp"
 #include "evolution/analysis/states.hpp"
 #include "evolution/observe/observer.hpp"
 #include "evolution/observe/record.hpp"
@@ -32,6 +33,7 @@ struct StageOf {
 struct Outcome {
     std::int32_t status = 0;
     std::string text;
+    bool outgrown = false;  // kinematics = auto: small rotations leave out too much, which the log has told
 };
 
 class Solver {
@@ -122,6 +124,8 @@ private:
     Outcome initial_outcome_;
     States states_;
     Record record_;
+    bool may_turn_ = false;  // to large rotations
+    RotationWatch rotations_;
     bool warned_of_mixity_ = false;
     Observer observer_;
     Warnings warnings_;

@@ -63,13 +63,25 @@ std::shared_ptr<Solver> next_stage(Solver& now) {
     }
 }
 
+// Returns the solver that goes on with large rotations from where this one has come to.
+std::shared_ptr<Solver> turned_stage(Solver& now) {
+    StageOf next = *now.stage();
+    next.stage.rotates = true;
+    return std::make_shared<Solver>(std::move(next), now, now.observer().displacement(now.states().committed()));
+}
+
 }  // namespace
 
+// A step in which small rotations leave out too much is taken once more, with large ones.
 Outcome Stages::advance(std::shared_ptr<Solver>& now, double time) {
-    if (!over(*now)) return now->advance(time);
-    const std::shared_ptr<Solver> next = next_stage(*now);
+    std::shared_ptr<Solver> next = over(*now) ? next_stage(*now) : now;
     Outcome outcome = next->advance(time);
-    before_ = std::exchange(now, next);
+    if (outcome.outgrown) {
+        next->rollback();
+        next = turned_stage(*next);
+        outcome = next->advance(time);
+    }
+    if (next != now) before_ = std::exchange(now, next);
     return outcome;
 }
 

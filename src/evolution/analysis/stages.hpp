@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An analysis whose supports begin or end: each of its stages (scene/stage.hpp) has a solver. The first step of a stage
-// is pending in the solver of that stage, and the one before waits, unchanged, until the step is committed.
+// An analysis whose supports begin or end, or whose rotations become large: each of its stages (scene/stage.hpp) has a
+// solver. The first step of a stage is pending in the solver of that stage, and the one before waits, unchanged, until
+// the step is committed.
 #pragma once
 
 #include <cstdint>

@@ -25,10 +25,6 @@ namespace delam {
 namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double largest_share = 0.99;  // of the energy: larger estimates say no more
-// Less than this share of the energy of the bodies, which rotations may add at most, is not worth a factorisation. It
-// is the largest error that this makes, a fiftieth of what a run tells; half and twice only factorise more and less
-// often.
-constexpr double negligible = 1e-4;
 }  // namespace
 
 void Observer::show(const State& state) {
@@ -134,10 +130,10 @@ MeshErrorShares Observer::mesh_error(const State& state) {
     return shares;
 }
 
-double Observer::rotation_error(const State& state) {
+double Observer::rotation_error(const State& state, double negligible) {
     if (op_.turned(state.response) != nullptr) return 0.0;
     const double rotation = largest_rotation(state), of_strains = 0.5 * rotation * rotation;
-    const double share = energy_of_rotations(state) / state.ledger.stored_bulk;
+    const double share = energy_of_rotations(state, negligible) / state.ledger.stored_bulk;
     return std::isfinite(share) ? std::max(of_strains, share) : of_strains;  // squares of tiny loads are 0
 }
 
@@ -148,7 +144,7 @@ double Observer::rotation_error(const State& state) {
 //     |int s : q|  +  min over v of  1/2 int (e(v) + q) : C : (e(v) + q) + springs,
 //
 // whose minimum is 1/2 int q : C : q - 1/2 f . (K + springs)^-1 f with the forces f of the stresses C : q.
-double Observer::energy_of_rotations(const State& state) {
+double Observer::energy_of_rotations(const State& state, double negligible) {
     const Mesh& mesh = *problem_.mesh;
     const std::size_t dim = index(mesh.dimension());
     const std::vector<double> moved = displacement(state);

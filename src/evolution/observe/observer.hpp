@@ -35,6 +35,10 @@ class HeldBodies;
 
 class Observer {
 public:
+    // The largest error that leaving out a factorisation makes of an error of rotations, a fiftieth of what a run
+    // tells; half and twice only factorise more and less often.
+    static constexpr double usually_negligible = 1e-4;
+
     // The arguments must outlive the observer.
     Observer(const Problem& problem, const JumpOperator& op, const PairLaws& pairs, const ContactScene& contact,
              const std::vector<double>& initial_adhesion, const EngineOperator* in_engine)
@@ -84,8 +88,9 @@ public:
     double largest_rotation(const State& state);
     // Returns the relative error of strains that are linear in the displacements, about: the larger of half the square
     // of the largest rotation, and the energy that rotations add over that of the bodies. 0 where strains know
-    // rotations; NaN without cells. Recovers the displacements.
-    double rotation_error(const State& state);
+    // rotations; NaN without cells. Recovers the displacements. negligible: this share of the energy, which rotations
+    // add at most, is not worth a factorisation of the bodies.
+    double rotation_error(const State& state, double negligible = usually_negligible);
     // Returns the present stresses over those at which the bodies buckle (critical_ratio).
     double buckling_ratio(const State& state);
 
@@ -118,7 +123,7 @@ private:
     std::vector<double> stress(const State& state);
     // Returns the energy that the strains of rotations add, to fourth order in these, F L. Where a part is free to
     // move, the work of the stresses is all of it that is known.
-    double energy_of_rotations(const State& state);
+    double energy_of_rotations(const State& state, double negligible);
     // The springs at the adhesion of a state, with pairs held that contact presses together; touching: normal rows of
     // pairs that touch without a force, [rows].
     struct Holding {

@@ -38,10 +38,12 @@ struct Goal {
 // One step in parts: the instants yet to be reached lie on a stack, the next one on top.
 class Parts {
 public:
-    Parts(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole, const Options& options)
+    Parts(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole, const Options& options,
+          double located)
         : stepper_(stepper),
           graph_(graph),
           options_(options),
+          located_(options.jump_tolerance > 0.0 ? options.jump_tolerance : located),
           step_(before.step + 1),
           asked_(whole.state.time - before.time),
           history_(whole.state.history),
@@ -67,6 +69,7 @@ private:
     Stepper& stepper_;
     const PairGraph& graph_;
     const Options& options_;
+    double located_;  // share of the step to which jumps are located; 0: they are not
     std::int64_t step_;
     double asked_;  // length of the whole step
     StepHistory history_;
@@ -85,7 +88,7 @@ private:
     bool too_long(const Stepper::Result& result, double change) const;
     bool compute();
     bool halve();
-    bool jumps(const Goal& goal) const { return options_.jump_tolerance > 0.0 && goal.change >= options_.jump_size; }
+    bool jumps(const Goal& goal) const;
     void accept_parent();
     void accept_goal();
     void accept(Goal goal);
@@ -99,6 +102,12 @@ bool Parts::too_long(const Stepper::Result& result, double change) const {
     return (options_.step_control == "adaptive" &&
             (!result.converged || (change > 0.0 && l.upper - l.lower > options_.step_tolerance * l.scale()))) ||
            (options_.mixity_step_tolerance > 0.0 && l.mixity_error > options_.mixity_step_tolerance);
+}
+
+// Whoever asks for a tolerance hears of every change of a size, others of what counts as a jump.
+bool Parts::jumps(const Goal& goal) const {
+    if (options_.jump_tolerance > 0.0) return goal.change >= options_.jump_size;
+    return located_ > 0.0 && delam::jumps(stepper_.pairs(), graph_, at_, goal.reached->state);
 }
 
 void Parts::count(const Stepper::Result& computed) {
@@ -128,8 +137,7 @@ bool Parts::halve() {
     const Goal& goal = goals_.back();
     const double length = goal.time - at_.time;
     const double smallest = options_.smallest_step * asked_;
-    const bool locate =
-        jumps(goal) && (length > options_.jump_tolerance * asked_ || (!goal.sharp && length > smallest));
+    const bool locate = jumps(goal) && (length > located_ * asked_ || (!goal.sharp && length > smallest));
     if (!locate && !(too_long(*goal.reached, goal.change) && length > smallest)) return false;
     const double middle = at_.time + 0.5 * length;
     if (!(middle > at_.time && middle < goal.time)) return false;
@@ -168,7 +176,7 @@ void Parts::record_jump(State& next) const {
 // Adds a part to the step.
 void Parts::accept(Goal goal) {
     State& next = goal.reached->state;
-    if (!(options_.jump_tolerance > 0.0) && delam::jumps(stepper_.pairs(), graph_, at_, next)) {
+    if (!(located_ > 0.0) && delam::jumps(stepper_.pairs(), graph_, at_, next)) {
         jumps_.push_back(describe_jump(stepper_.pairs(), graph_, at_, next));
         jumps_.back().step = step_;
     }
@@ -209,13 +217,9 @@ ControlledStep Parts::close() {
 
 }  // namespace
 
-bool controls_steps(const Options& options) {
-    return options.jump_tolerance > 0.0 || options.step_control == "adaptive" || options.mixity_step_tolerance > 0.0;
-}
-
 ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole,
-                               const Options& options) {
-    return Parts(stepper, graph, before, std::move(whole), options).run();
+                               const Options& options, double located) {
+    return Parts(stepper, graph, before, std::move(whole), options, located).run();
 }
 
 }  // namespace delam

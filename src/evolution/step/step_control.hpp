@@ -22,9 +22,9 @@ struct ControlledStep {
     std::vector<StepPart> parts;  // that lead to the result
 };
 
-bool controls_steps(const Options& options);
-// whole: the step in one part, already computed from `before`.
+// whole: the step in one part, already computed from `before`. located: share of the step to which bisection locates a
+// jump (jump_event.hpp) where no option asks for more; 0: none.
 ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole,
-                               const Options& options);
+                               const Options& options, double located);
 
 }  // namespace delam

@@ -15,6 +15,7 @@ std::string unknown_option(const Options& options) {
     if (options.solution != "local") return "solution = " + options.solution;
     if (options.backtracking == "on") return "backtracking = on";
     if (options.step_control == "load") return "step_control = load";
+    if (options.mixity_rule == "variational") return "mixity_rule = variational";
     if (options.reduction == "feti") return "reduction = feti";
     if (options.subdomains > 0) return text("subdomains = ", options.subdomains);
     return {};
@@ -22,31 +23,34 @@ std::string unknown_option(const Options& options) {
 
 }  // namespace
 
-void check_kinematics(const Problem& problem) {
-    if (problem.options.kinematics == "linear") return;
-    const std::string with = "kinematics = corotational does not know ", instead = ": use kinematics = linear";
+std::string unknown_to_rotations(const Problem& problem) {
     const Mesh& mesh = *problem.mesh;
     if (const std::string option = unknown_option(problem.options); !option.empty())
-        fail(DELAM_ERROR_PROBLEM, with, option, ", only local solutions at the ends of steps (solution = local, ",
-             "step_control = fixed, adaptive or auto, mixity_rule = converged or frozen, reduction = auto, condensed "
-             "or ",
-             "iterated)");
-    if (problem.engine != nullptr) fail(DELAM_ERROR_PROBLEM, with, "bodies that an engine of the host solves", instead);
+        return option +
+               ", only local solutions at the ends of steps (solution = local, step_control = fixed, adaptive "
+               "or auto, mixity_rule = converged or frozen, reduction = auto, condensed or iterated)";
+    const std::string instead = ": use kinematics = linear";
+    if (problem.engine != nullptr) return "bodies that an engine of the host solves" + instead;
     for (std::int32_t body = 0; body < mesh.body_count(); ++body)
         if (problem.stiffness[index(body)] != nullptr || mesh.host_body(body))
-            fail(DELAM_ERROR_PROBLEM, with, "the stiffness that the host gives, of body ", mesh.body_label(body),
-                 ", which says nothing about rotations", instead);
+            return text("the stiffness that the host gives, of body ", mesh.body_label(body),
+                        ", which says nothing about rotations", instead);
     if (!problem.eigenstrains.empty())
-        fail(DELAM_ERROR_PROBLEM, with, "eigenstrains, as of body ", mesh.body_label(problem.eigenstrains.front().body),
-             instead);
+        return text("eigenstrains, as of body ", mesh.body_label(problem.eigenstrains.front().body), instead);
     for (std::size_t i = 0; i < mesh.interfaces().size(); ++i)
-        if (mesh.interfaces()[i].body_a < 0)
-            fail(DELAM_ERROR_PROBLEM, with, "obstacles, as that of interface ", i, instead);
+        if (mesh.interfaces()[i].body_a < 0) return text("obstacles, as that of interface ", i, instead);
     const Carriers carriers(problem);
     if (!carriers.controls().empty())
-        fail(DELAM_ERROR_PROBLEM, with, "control nodes, as node ", carriers.controls().front(),
-             ": equations with a control node (periodic cells, levers) would not turn; ",
-             "prescribe displacements of nodes or means over patches, or use kinematics = linear");
+        return text("control nodes, as node ", carriers.controls().front(),
+                    ": equations with a control node (periodic cells, levers) would not turn; ",
+                    "prescribe displacements of nodes or means over patches, or use kinematics = linear");
+    return {};
+}
+
+void check_kinematics(const Problem& problem) {
+    if (problem.options.kinematics != "corotational") return;
+    if (const std::string what = unknown_to_rotations(problem); !what.empty())
+        fail(DELAM_ERROR_PROBLEM, "kinematics = corotational does not know ", what);
 }
 
 }  // namespace delam

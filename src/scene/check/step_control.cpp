@@ -14,6 +14,9 @@ namespace {
 // dissipated energy open with parts of 0.15, 0.1 and 0.05 of the process zone.
 constexpr double usual_accuracy = 3e-3, part_of_zone = 0.1;
 constexpr double largest_part = 0.5;
+// Steps with large rotations that hold a jump are halved until it lies within this share of them. (dcb-double in 300
+// steps: REASON)
+constexpr double located_share = 0.02;
 
 // Returns what following the load needs and these options lack: local minimisers from part to part, whose damage may be
 // eliminated. Null: nothing.
@@ -40,6 +43,12 @@ std::string why_whole(const Problem& problem, const Options& options, const std:
     return asked;
 }
 
+// Steps that nothing follows along their load, because bodies rotate, lose no jump.
+double located(const Options& options, bool chosen, const std::string& whole) {
+    const bool rotates = options.kinematics != "linear";
+    return chosen && rotates && whole.empty() && !controls_steps(options) ? located_share : 0.0;
+}
+
 double used_path_step(const Options& options, bool follows) {
     if (options.path_step != Options{}.path_step) return options.path_step;
     const double usual = follows ? part_of_zone : options.path_step;
@@ -52,8 +61,14 @@ StepControl used_step_control(const Problem& problem, const Options& options, co
     const bool chosen = options.step_control == "auto";
     const std::string why = chosen ? why_whole(problem, options, whole) : std::string();
     const std::string name = !chosen ? options.step_control : why.empty() ? "load" : "fixed";
-    const std::string reason = text("option step_control = ", options.step_control, why.empty() ? "" : ": ", why);
-    return {name, reason, used_path_step(options, name == "load")};
+    std::string reason = text("option step_control = ", options.step_control, why.empty() ? "" : ": ", why);
+    const double share = located(options, chosen, whole);
+    if (share > 0.0) reason += text("; jumps are located to ", share, " of a step");
+    return {name, reason, used_path_step(options, name == "load"), share};
+}
+
+bool controls_steps(const Options& options) {
+    return options.jump_tolerance > 0.0 || options.step_control == "adaptive" || options.mixity_step_tolerance > 0.0;
 }
 
 void check_step_control(const Problem& problem) {

@@ -63,7 +63,7 @@ void check_distances(const Problem& problem, std::size_t i) {
 
 // A plane mesh has one direction of sliding.
 void require_one_shear(const Law& law, std::size_t interface) {
-    if (!law.has_axes()) return;
+    if (!has_axes(law)) return;
     for (const LawParameter& p : law_parameters())
         if (p.like != nullptr && law.*p.value > 0.0 && law.*p.value != law.*p.like)
             fail(DELAM_ERROR_PROBLEM, "interface ", interface, ": ", p.key, " ", law.*p.value,
@@ -126,9 +126,6 @@ void check_mixity_rule(const Problem& problem) {
                  " has two onsets or toughnesses in shear (second_tangential_onset, second_tangential_strength or "
                  "second_tangential_toughness), whose tractions this rule does not know: use mixity_rule = frozen or "
                  "converged");
-    if (problem.options.kinematics != "linear")
-        fail(DELAM_ERROR_PROBLEM, "kinematics = ", problem.options.kinematics,
-             " does not know mixity_rule = variational: use frozen or converged");
     for (std::size_t i = 0; i < problem.interfaces.size(); ++i) {
         const InterfaceProperties& interface = problem.interfaces[i];
         if (!interface.law || !interface.law->depends_on_mixity()) continue;
