@@ -6,7 +6,7 @@
 slices=17
 # Tests of ctest, as a regular expression; each test with the label `long` is in one slice (the test style/slices).
 declare -A slice_tests=(
-    [1]='^(cli_long_(studies|many|intervals)|(unit|case)/test_long_.*|case/whole_.*)$'
+    [1]='^(cli_long_(studies|study_input|many|intervals)|(unit|case)/test_long_.*|case/whole_.*)$'
     [2]='^(cli_(long_(view_browser|coupons|examples|generators)|paraview)|(fortran|cpp|site|python|julia|report)/.*)$'
     [3]='^(ranks/long_faults.*|petsc/.*|example/host_abaqus_memory|packaging/.*)$'
     [4]='^ranks/long_scenes_[1-6]$'

@@ -74,7 +74,8 @@ def made(kind, sheet, *more):
 def peaks():
     for kind, (sheet, theory, tolerance) in KINDS.items():
         scene, text, _ = made(kind, [*PLY, *sheet.split()])
-        rows, said = rows_of(scene)
+        # One is run as it is; fields take half of the time of a run.
+        rows, said = rows_of(scene, *([] if kind == "dcb" else ["--set", "output.fields=[]"]))
         peak = 1e3 * max(float(row["reaction"]) for row in rows)
         expect(abs(peak / theory - 1) < tolerance, f"{kind}: peak {peak:.5g} N/m, beam theory {theory:.5g}")
         told = 1e3 * float(re.search(r"grows from [\d.]+ mm at ([\d.e+]+) N/mm", text)[1])
