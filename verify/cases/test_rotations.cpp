@@ -9,100 +9,17 @@
 #include <vector>
 
 #include "condensed_scenes.hpp"
-#include "delam/experimental.h"
 #include "elastica.hpp"
+#include "rotating_beams.hpp"
 #include "small_analysis.hpp"
 #include "support.hpp"
 
 namespace {
 
+using namespace beams;
 using cases::Arm;
-using reference::LawData;
 using reference::Scene;
 using reference::Solver;
-
-// N and mm, per mm of width; Poisson's ratio is 0, so that plane strain is plane stress.
-constexpr double young = 135.3e3;
-double bending_stiffness(double e, double height) { return e * height * height * height / 12.0; }
-
-// Equal strengths and toughnesses in both modes; with the exponent 1 the mode does not matter.
-LawData equal_modes(double strength, double toughness) {
-    constexpr double stiffness = 1e5;
-    const double onset = 0.5 * strength * strength / stiffness;
-    return {stiffness, stiffness, onset, onset, toughness, toughness, 1.0};
-}
-
-using Place = std::array<double, 3>;
-
-// Two layers on each other from x = 0 to the length, notched from the left; every place and direction is turned.
-struct Beam {
-    double length, height, notch;
-    int cells, across;
-    double angle = 0.0;
-    int dimension = 2;
-    double width = 0.0;
-
-    Place turned(const Place& x) const {
-        const double c = std::cos(angle), s = std::sin(angle);
-        return {c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]};
-    }
-    std::vector<double> along(std::size_t axis, double sign = 1.0) const {
-        Place e{};
-        e[axis] = sign;
-        const Place t = turned(e);
-        return {t.begin(), t.begin() + dimension};
-    }
-    Scene mesh(int layers = 2) const {
-        std::vector<cases::Block> blocks;
-        for (int i = 0; i < layers; ++i)
-            blocks.push_back({{0.0, i * height, 0.0}, {length, (i + 1) * height, width}, {cells, across, 1}});
-        return cases::make_blocks(dimension, blocks, [this](const Place& x) { return turned(x); });
-    }
-    // Nodes of a body at a place before the turn, over the whole width.
-    std::vector<std::int64_t> nodes(const Scene& scene, std::int32_t body, double x, double y) const {
-        const Place at = turned({x, y, 0.0});
-        return cases::nodes_where(scene, body, [&](const double* p) {
-            return std::abs(p[0] - at[0]) < 1e-6 && std::abs(p[1] - at[1]) < 1e-6;
-        });
-    }
-    void cut(Scene& scene) const {
-        std::vector<std::int64_t> cut;
-        const auto pairs = scene.pairs(0);
-        const std::vector<double> first = along(0);
-        for (std::size_t p = 0; p < pairs.count(); ++p)
-            if (first[0] * scene.coordinate(pairs.node_b[p], 0) + first[1] * scene.coordinate(pairs.node_b[p], 1) <
-                notch - 1e-6)
-                cut.push_back(static_cast<std::int64_t>(p));
-        scene.adhesion(0, cut, std::vector<double>(cut.size(), 0.0));
-    }
-};
-
-void drive(Scene& scene, const std::vector<std::int64_t>& nodes, const std::vector<double>& direction,
-           std::int64_t pattern) {
-    scene.drive(nodes, direction, pattern, std::vector<double>(nodes.size(), 1.0));
-}
-
-// A double cantilever beam of arms of 0.5 mm, its ends moved apart by w each.
-Scene double_cantilever(const Beam& beam, double w, const char* kinematics = "corotational") {
-    Scene scene = beam.mesh();
-    scene.interface(0, 1);
-    scene.begin();
-    scene.elastic(-1, young, 0.0);
-    scene.law(0, equal_modes(12.0, 0.5));
-    beam.cut(scene);
-    scene.text("kinematics", kinematics);
-    const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, w});
-    const double h = beam.height;
-    scene.hold(beam.nodes(scene, 0, beam.length, h), beam.along(0));
-    scene.hold(beam.nodes(scene, 0, beam.length, h), beam.along(1));
-    scene.hold(beam.nodes(scene, 1, beam.length, h), beam.along(0));
-    drive(scene, beam.nodes(scene, 0, 0.0, 0.5 * h), beam.along(1, -1.0), load);
-    drive(scene, beam.nodes(scene, 1, 0.0, 1.5 * h), beam.along(1), load);
-    if (beam.dimension == 3)
-        for (const std::int32_t body : {0, 1})  // no piece of it moves across the plane
-            scene.hold(cases::nodes_where(scene, body, [](const double* p) { return p[2] < 1e-9; }), beam.along(2));
-    return scene;
-}
 
 // Counts the linearisations of a step: the calls of the stage `rotate`.
 struct Linearisations {
@@ -123,23 +40,6 @@ void expect_closed_balance(const Solver& solver, double open, double outside) {
     cases::expect_near(energy + solver.value("dissipated") + solver.value("released"), work, open, work, "balance");
     cases::expect_below(solver.value("lower") - solver.value("increment"), outside * energy, "lower bound");
     cases::expect_below(solver.value("increment") - solver.value("upper"), outside * energy, "upper bound");
-}
-
-// Two beams on each other, notched from the left, bent by w in the middle.
-Scene flexure(const Beam& beam, const LawData& law, double w, const char* kinematics) {
-    Scene scene = beam.mesh();
-    scene.interface(0, 1);
-    scene.begin();
-    scene.elastic(-1, 70e3, 0.0);
-    scene.law(0, law);
-    beam.cut(scene);
-    scene.text("kinematics", kinematics);
-    const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, w});
-    scene.hold(beam.nodes(scene, 0, 0.0, 1.0), {0.0, 1.0});
-    scene.hold(beam.nodes(scene, 0, 100.0, 1.0), {1.0, 0.0});
-    scene.hold(beam.nodes(scene, 0, 100.0, 1.0), {0.0, 1.0});
-    drive(scene, beam.nodes(scene, 0, 50.0, 1.0), {0.0, -1.0}, load);
-    return scene;
 }
 
 }  // namespace
@@ -261,8 +161,10 @@ TEST(flexure_specimen_stiffens) {
 // A crack from a short notch jumps. Where the step that holds the jump begins and ends does not matter, and the load is
 // that of small rotations, up to these.
 TEST(jumps_are_located) {
-    const auto found = [](const char* kinematics, int steps) {
-        const Scene scene = flexure({100.0, 1.0, 12.0, 200, 2}, equal_modes(12.0, 0.1), 6.0, kinematics);
+    const auto found = [](const char* kinematics, int steps, bool held = false) {
+        const Beam beam{100.0, 1.0, held ? 40.0 : 12.0, 200, 2};
+        Scene scene = flexure(beam, equal_modes(12.0, 0.1), held ? 1.8 : 6.0, kinematics);
+        if (held) scene.hold(beam.nodes(scene, 0, 25.0, 1.0), {0.0, 1.0});
         Solver solver(scene, 0.0);
         std::int64_t count = 0;
         double released = 0.0;
@@ -272,7 +174,7 @@ TEST(jumps_are_located) {
             released += solver.value("released");
         }
         const double energy = solver.value("stored_bulk") + solver.value("stored_interface");
-        cases::expect_near(energy + solver.value("dissipated") + released, solver.value("work"), 2e-3,
+        cases::expect_near(energy + solver.value("dissipated") + released, solver.value("work"), 4e-3,
                            solver.value("work"), "balance");
         REQUIRE(scene, delam_solver_jump_count, solver.get(), &count);
         cases::expect(count == 1, std::to_string(count) + " jumps of a crack in " + std::to_string(steps) + " steps");
@@ -290,6 +192,10 @@ TEST(jumps_are_located) {
     cases::expect_below(20.0, few[2], "length of the jump");
     for (std::size_t i = 0; i < few.size(); ++i)
         cases::expect_near(chosen[i], few[i], 1e-5, few[i], "with kinematics = auto, number " + std::to_string(i));
+    // One that releases so little that a whole step does not tell of it: a support holds the notch.
+    const auto held_linear = found("linear", 6, true), held = found("corotational", 6, true);
+    cases::expect_near(held[1], held_linear[1], 0.02, 1.0, "begin of a small jump");
+    cases::expect_near(held[2], held_linear[2], 0.1, held_linear[2], "length of a small jump");
 }
 
 // The same numbers whatever direction the scene has, up to what linearisations leave: 1e-6 of the load.
@@ -392,69 +298,6 @@ TEST(saved_analysis_goes_on_bit_by_bit) {
     walk(resumed, 5, 8);
     cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(whole), "in the end");
     cases::expect(whole.value("dissipated") > 0.0, "the interface is damaged, or nothing was tested");
-}
-
-// Rotations become large in the step in which small ones leave out too much, which begins at the state before. Steps
-// before it have the digits of small rotations, later ones the forces of large ones.
-TEST(rotations_become_large_where_they_must) {
-    const Beam beam{80.0, 0.5, 40.0, 160, 2};
-    const Scene small = double_cantilever(beam, 20.0, "linear"), large = double_cantilever(beam, 20.0),
-                either = double_cantilever(beam, 20.0, "auto");
-    Solver linear(small, 0.0), turned(large, 0.0), chosen(either, 0.0);
-    bool grown = false;
-    std::vector<std::uint8_t> saved;
-    for (int k = 1; k <= 20; ++k) {
-        for (Solver* solver : {&linear, &turned, &chosen}) solver->step(k / 20.0);
-        const bool now = linear.value("rotation_max") > 0.1;
-        if (now && !grown) {  // the step that turns can be taken back
-            const auto first = cases::read_bits(chosen);
-            chosen.rollback();
-            linear.rollback();
-            cases::expect_same(chosen, cases::read_bits(chosen), cases::read_bits(linear), "taken back");
-            for (Solver* solver : {&linear, &chosen}) solver->step(k / 20.0);
-            cases::expect_same(chosen, cases::read_bits(chosen), first, "taken again");
-        }
-        grown = grown || now;
-        for (Solver* solver : {&linear, &turned, &chosen}) solver->commit();
-        const double force = turned.value("reaction:load");
-        if (grown)
-            cases::expect_near(chosen.value("reaction:load"), force, 1e-5, force, "force, step " + std::to_string(k));
-        else
-            cases::expect_same(chosen, cases::read_bits(chosen), cases::read_bits(linear), "small rotations");
-        if (k == 2 || k == 12) saved = chosen.save();
-        if (k == 2) cases::expect(!grown, "the first two steps have small rotations");
-        if (k != 2 && k != 14) continue;
-        Solver resumed(either, 0.0);  // before the rotations are large, and after
-        either.require(resumed.load(saved), "delam_solver_load");
-        for (int s = k == 2 ? 3 : 13; s <= (k == 2 ? 2 : 14); ++s) {
-            resumed.step(s / 20.0);
-            resumed.commit();
-        }
-        cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(chosen), "saved and loaded");
-    }
-    cases::expect(grown && chosen.value("dissipated") > 0.0, "the crack grows with large rotations");
-    for (const char* key : {"work", "stored_bulk", "stored_interface", "dissipated"})
-        cases::expect_near(chosen.value(key), turned.value(key), 1e-5, turned.value("work"), key);
-}
-
-// Scenes that large rotations do not know stay as they are, and the plan says why.
-TEST(rotations_that_cannot_become_large) {
-    Scene scene = double_cantilever({30.0, 0.5, 10.0, 60, 2}, 10.0, "auto");
-    const double strain[] = {1e-9, 0.0, 0.0, 0.0, 0.0, 0.0};
-    scene.require(
-        delam_problem_add_eigenstrain(scene.problem(), scene.pattern("heat", {0.0, 1.0}, {0.0, 1.0}), 0, strain),
-        "delam_problem_add_eigenstrain");
-    Solver solver(scene, 0.0);
-    solver.step(1.0);
-    cases::expect_below(0.2, solver.value("rotation_max"), "rotation");
-    const std::string plan = delam_solver_plan(solver.get());
-    cases::expect(plan.find("large rotations: left out, option kinematics = auto: they do not know eigenstrains") !=
-                      std::string::npos,
-                  plan);
-    const std::int64_t interface = 0;
-    cases::expect(
-        delam_experimental_solver_follow(solver.get(), 1, &interface, "normal_toughness", nullptr) == DELAM_ERROR_STATE,
-        "sensitivities are followed");
 }
 
 TEST(what_rotations_do_not_know_is_refused_by_name) {

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evolution/analysis/rotation_watch.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "base/error.hpp"
+#include "evolution/minimise/proportional_loads.hpp"
 
 namespace delam {
 
@@ -18,36 +22,45 @@ constexpr double turning_share = 0.005;   // of the energy of the bodies
 constexpr double turning_ratio = 0.1;     // of the critical stresses: bending grows by 1 / (1 - ratio)
 // Energies that rotations add at most, below which nothing is factorised: a part of the share that counts. (Half and
 // twice only factorise more and less often.)
-constexpr double negligible = 0.5 * turning_share;
-// At fixed damage stresses are in proportion to the load, as long as contact does not change; damage makes free parts
-// longer. The ratio is computed anew where the estimate comes this near, and where the debonded part has grown by this
-// much of all. (Half and twice: as above.)
+constexpr double negligible = 0.1 * turning_share;
+// At fixed damage and contact stresses are in proportion to loads that are; damage makes free parts longer. The ratio
+// is computed anew where the estimate comes this near, and where the debonded part of an interface has grown by this
+// much of it. (Half and twice: as above.)
 constexpr double safety = 0.5, grown = 0.02;
 
-double debonded_share(const PairLaws& pairs, const State& state) {
-    double sum = 0.0, all = 0.0;
-    for (std::size_t p = 0; p < state.adhesion.size(); ++p) {
-        if (pairs.law[p] == nullptr) continue;
-        all += pairs.weight[p];
-        sum += pairs.weight[p] * (1.0 - state.adhesion[p]);
+// Returns the debonded share of each interface.
+std::vector<double> debonded_shares(const Mesh& mesh, const PairLaws& pairs, const State& state) {
+    std::vector<double> shares;
+    std::size_t p = 0;
+    for (const InterfaceGeometry& interface : mesh.interfaces()) {
+        double sum = 0.0, all = 0.0;
+        for (std::int64_t i = 0; i < interface.pair_count(); ++i, ++p) {
+            if (pairs.law[p] == nullptr) continue;
+            all += pairs.weight[p];
+            sum += pairs.weight[p] * (1.0 - state.adhesion[p]);
+        }
+        shares.push_back(all > 0.0 ? sum / all : 0.0);
     }
-    return all > 0.0 ? sum / all : 0.0;
+    return shares;
 }
 
 }  // namespace
 
 double RotationWatch::buckling_ratio(Observer& observer, const State& state) {
-    const double energy = state.ledger.stored_bulk, debonded = debonded_share(observer.pairs(), state);
-    if (!(energy > 0.0)) return 0.0;
-    if (known_ && std::abs(debonded - debonded_) <= grown) {
-        const double estimate = ratio_ * std::sqrt(energy / energy_);
-        if (estimate < safety * turning_ratio) return estimate;
+    if (!(state.ledger.stored_bulk > 0.0)) return 0.0;
+    Known now{0.0, state.theta, state.closed, debonded_shares(*observer.problem().mesh, observer.pairs(), state)};
+    if (known_ && known_->closed == now.closed) {
+        double most = 0.0;
+        for (std::size_t i = 0; i < now.debonded.size(); ++i)
+            most = std::max(most, std::abs(now.debonded[i] - known_->debonded[i]));
+        const std::optional<double> part = load_ratio(known_->theta, now.theta);
+        if (most <= grown && part && known_->ratio < safety * turning_ratio * *part) return known_->ratio / *part;
     }
-    ratio_ = observer.buckling_ratio(state);
-    energy_ = energy;
-    debonded_ = debonded;
-    known_ = std::isfinite(ratio_);
-    return ratio_;
+    known_.reset();
+    now.ratio = observer.buckling_ratio(state);
+    const double ratio = now.ratio;
+    if (std::isfinite(ratio)) known_ = std::move(now);
+    return ratio;
 }
 
 std::string RotationWatch::judge(Observer& observer, const State& state) {

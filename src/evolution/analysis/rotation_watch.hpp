@@ -2,7 +2,10 @@
 // Watches an analysis with small rotations for the step in which these leave out too much (kinematics = auto).
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "evolution/observe/observer.hpp"
 
@@ -18,9 +21,14 @@ private:
     // they were computed last, an estimate.
     double buckling_ratio(Observer& observer, const State& state);
 
-    // These belong to the state for which the ratio was computed last.
-    bool known_ = false;
-    double ratio_ = 0.0, energy_ = 0.0, debonded_ = 0.0;
+    // Says for which loads, contact and debonded share of each interface the ratio was computed last.
+    struct Known {
+        double ratio;
+        std::vector<double> theta;
+        std::vector<std::uint8_t> closed;
+        std::vector<double> debonded;
+    };
+    std::optional<Known> known_;
 };
 
 }  // namespace delam

@@ -49,9 +49,12 @@ Problem scene_at(const Problem& problem, double time) {
     return changes_of(problem).empty() && !may_turn(problem) ? problem : scene_from(problem, time);
 }
 
+// True if rotations are large.
+bool turns(const Problem& problem) { return problem.options.kinematics != "linear"; }
+
 // Returns the operator that reads the states, after bodies that rotate have got steps of their own.
 const JumpOperator& reading_operator(Stepper& stepper, const Problem& problem, Monitor& monitor) {
-    if (problem.options.kinematics != "linear") delegate_to_turned_steps(stepper, problem, monitor);
+    if (turns(problem)) delegate_to_turned_steps(stepper, problem, monitor);
     return stepper.op();
 }
 
@@ -138,7 +141,7 @@ Solver::Solver(StageOf stage, const Solver& before, std::span<const double> disp
     const State& there = before.states_.committed();
     const std::string what = stage.stage.rotates ? "a stage with large rotations begins: " : "supports begin or end: ";
     problem_.patterns = before.problem_.patterns;
-    Stepper::Result begun = take_over(stepper_, there, displacement);
+    Stepper::Result begun = take_over(stepper_, there, displacement, turns(before.problem_), turns(problem_));
     if (!begun.converged) fail(DELAM_ERROR_NUMERICAL, what, unconverged_displacement(there).text);
     require_sound(problem_, begun.state, true);
     adopt(chosen(begun.state.growth.way, begun.state.ledger.dissipated, false));
@@ -168,7 +171,7 @@ Solver::Chosen Solver::chosen(std::int64_t way, double dissipated, bool follows)
     std::string whole;
     if (follows) whole = "derivatives by numbers of the laws are followed";
     if (way == 2) whole = "the host has asked for the tangent of a step";
-    if (way == 0 && dissipated > 0.0) whole = "so were the steps before";
+    if (way == 0 && dissipated > 0.0 && !turns(problem_)) whole = "so were the steps before";
     Chosen next{used_step_control(problem_, given_, whole), problem_.options};
     next.options.step_control = next.control.name;
     next.options.path_step = next.control.path_step;
@@ -234,7 +237,7 @@ Outcome Solver::advance(double time) {
     }
     for (auto& [step, state] : chain.revised()) note_jump(chain.at(step - 1), state, pending.jumps);
     const State& from = chain.at(committed.step);
-    const bool halved = control_.located > 0.0 && delam::jumps(stepper_.pairs(), graph_, from, result.state);
+    const bool halved = control_.located > 0.0 && may_jump(stepper_.pairs(), graph_, from, result.state);
     if (controls_steps(options) || halved) {
         ControlledStep controlled =
             controlled_step(stepper_, graph_, from, std::move(result), options, control_.located);
@@ -251,15 +254,10 @@ Outcome Solver::advance(double time) {
     require_sound(problem_, pending.state, result.converged);
     for (const State& revised : pending.revised) require_sound(problem_, revised, result.converged);
     warned_of_mixity_ = warned_of_mixity_ || stepper_.warn(pending.state);
-    if (may_turn_) {
-        observer_.show(pending.state);
-        if (const std::string why = rotations_.judge(observer_, pending.state); !why.empty()) {
-            monitor_.log(1, text("step ", pending.state.step, " at time ", time, ": ", why, "; from time ",
-                                 committed.time, " on rotations are large (kinematics = auto)"));
-            states_.propose(std::move(pending));
-            observer_.show(states_.present());
-            return {DELAM_OK, "", true};
-        }
+    if (may_turn_ && outgrows(pending.state)) {
+        states_.propose(std::move(pending));
+        observer_.show(states_.present());
+        return {DELAM_OK, "", true};
     }
     warnings_.judge_front(observer_, committed, pending.state);
     warnings_.judge_ledger(pending.state, options);
@@ -273,6 +271,23 @@ Outcome Solver::advance(double time) {
     states_.propose(std::move(pending));
     observer_.show(states_.present());
     return outcome;
+}
+
+bool Solver::outgrows(const State& next) {
+    const State& committed = states_.committed();
+    // The observer keeps what it recovers of the state that it shows, which lives no longer than this step.
+    struct Back {
+        Observer& observer;
+        const State& shown;
+        ~Back() { observer.show(shown); }
+    };
+    const Back back{observer_, committed};
+    observer_.show(next);
+    const std::string why = rotations_.judge(observer_, next);
+    if (!why.empty())
+        monitor_.log(1, text("step ", next.step, " at time ", next.time, ": ", why, "; from time ", committed.time,
+                             " on rotations are large (kinematics = auto)"));
+    return !why.empty();
 }
 
 Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
@@ -357,7 +372,8 @@ std::vector<double> Solver::step_tangent() {
         fail(DELAM_ERROR_STATE, "step tangent: not available, because backtracking has replaced the steps from ",
              pending->revised.front().step, " on");
     if (pending->parts.size() > 1) {
-        if (keeps_past(problem_.options) || problem_.options.kinematics != "linear")
+        if (turns(problem_)) take_whole_steps();  // so that the step has a tangent once it is taken again
+        if (keeps_past(problem_.options) || turns(problem_))
             fail(DELAM_ERROR_STATE, "step tangent: not available, because the step was divided into ",
                  pending->parts.size(),
                  " substeps (step_control, jump_tolerance or mixity_step_tolerance), with a search "
@@ -368,14 +384,14 @@ std::vector<double> Solver::step_tangent() {
 }
 
 void Solver::take_whole_steps() {
-    if (given_.step_control != "auto" || !follows_load(problem_.options)) return;
+    if (given_.step_control != "auto" || !(follows_load(problem_.options) || control_.located > 0.0)) return;
     adopt(chosen(2, 0.0, false));
     states_.take_whole_steps();
     whole_ = true;
 }
 
 std::int64_t Solver::follow(std::span<const std::int64_t> interfaces, const std::string& key) {
-    if (problem_.options.kinematics != "linear")
+    if (turns(problem_))
         fail(DELAM_ERROR_STATE, "sensitivities are not followed with kinematics = ", problem_.options.kinematics);
     if (stage_ && may_turn(*stage_->whole))
         fail(DELAM_ERROR_STATE, "sensitivities are not followed with kinematics = auto: use linear");

@@ -109,6 +109,8 @@ private:
     // Appends what happened in a step that jumps.
     void note_jump(const State& before, State& after, std::vector<JumpEvent>& jumps) const;
     void judge_balance(const State& state, Outcome& outcome);
+    // True if small rotations leave out too much in this step, which is then told.
+    bool outgrows(const State& next);
 
     std::optional<StageOf> stage_;
     Problem problem_;

@@ -5,14 +5,16 @@
 
 namespace delam {
 
-Stepper::Result take_over(Stepper& stepper, const State& before, std::span<const double> displacement) {
+Stepper::Result take_over(Stepper& stepper, const State& before, std::span<const double> displacement, bool rotated,
+                          bool rotates) {
     State from = before;
     // Bodies that rotate know their state by its displacements, others by unknowns of their operator.
-    if (stepper.op().turned(before.response) == nullptr) {
+    if (!rotated || !rotates) {
         from.response.multipliers.clear();
         from.response.rigid.clear();
         from.memory.clear();
         from.search_memory.clear();
+        if (rotates) from.response.multipliers.assign(displacement.begin(), displacement.end());
     }
     from.search_energies.clear();
     Stepper::Result result = stepper.equilibrate(from, before.time, {}, {displacement.begin(), displacement.end()});

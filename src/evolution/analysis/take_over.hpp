@@ -14,7 +14,9 @@
 
 namespace delam {
 
-// stepper: of the scene of the stage. displacement: of the state before, [mesh DOFs].
-Stepper::Result take_over(Stepper& stepper, const State& before, std::span<const double> displacement);
+// stepper: of the scene of the stage. displacement: of the state before, [mesh DOFs]. rotated, rotates: rotations are
+// large in the stage before, and in this one.
+Stepper::Result take_over(Stepper& stepper, const State& before, std::span<const double> displacement, bool rotated,
+                          bool rotates);
 
 }  // namespace delam

@@ -107,7 +107,7 @@ bool Parts::too_long(const Stepper::Result& result, double change) const {
 // Whoever asks for a tolerance hears of every change of a size, others of what counts as a jump.
 bool Parts::jumps(const Goal& goal) const {
     if (options_.jump_tolerance > 0.0) return goal.change >= options_.jump_size;
-    return located_ > 0.0 && delam::jumps(stepper_.pairs(), graph_, at_, goal.reached->state);
+    return located_ > 0.0 && may_jump(stepper_.pairs(), graph_, at_, goal.reached->state);
 }
 
 void Parts::count(const Stepper::Result& computed) {
@@ -216,6 +216,10 @@ ControlledStep Parts::close() {
 }
 
 }  // namespace
+
+bool may_jump(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
+    return jumps(pairs, graph, before, after) || hides_jump(pairs, graph, before, after);
+}
 
 ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole,
                                const Options& options, double located) {

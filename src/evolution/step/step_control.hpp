@@ -22,6 +22,8 @@ struct ControlledStep {
     std::vector<StepPart> parts;  // that lead to the result
 };
 
+// True if a step holds a jump, or hides one (jump_event.hpp).
+bool may_jump(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after);
 // whole: the step in one part, already computed from `before`. located: share of the step to which bisection locates a
 // jump (jump_event.hpp) where no option asks for more; 0: none.
 ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole,

@@ -289,7 +289,7 @@ void InpCard::check() const {
             if (const std::string instead = abaqus::instead_of_parameter(keyword, written); !instead.empty())
                 throw SceneFailure(place, instead);
         const auto at = std::find_if(known->parameters.begin(), known->parameters.end(),
-                                     [&](const abaqus::Parameter& each) { return each.name == name; });
+                                     [&own = name](const abaqus::Parameter& each) { return each.name == own; });
         if (at == known->parameters.end())
             throw SceneFailure(place, fmt::format("the parameter {} is not read{}; {}", name, suggestion(name, names),
                                                   names.empty() ? "none is" : "these are: " + listing(names)));

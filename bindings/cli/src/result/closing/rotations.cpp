@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -32,8 +34,10 @@ SmallRotations small_rotations_of(const Model& model, delam_solver* solver, cons
     };
     value("rotation_max", small.rotation);
     value("rotation_error", small.error);
-    const bool asked_for = std::any_of(scene.options.begin(), scene.options.end(),
-                                       [](const SolverOption& option) { return option.key == "kinematics"; });
+    const bool asked_for = std::any_of(scene.options.begin(), scene.options.end(), [](const SolverOption& option) {
+        const auto* word = std::get_if<std::string>(&option.value);
+        return option.key == "kinematics" && word != nullptr && *word != "auto";
+    });
     if (!asked_for) value("buckling_ratio", small.buckling);
     return small;
 }

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// kinematics = auto: rotations are small up to the step in which they leave out too much, and large from there on.
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "delam/experimental.h"
+#include "rotating_beams.hpp"
+#include "small_analysis.hpp"
+
+namespace {
+
+using namespace beams;
+using reference::Solver;
+
+}  // namespace
+
+// Rotations become large in the step in which small ones leave out too much, which begins at the state before. Steps
+// before it have the digits of small rotations, later ones the forces of large ones.
+TEST(rotations_become_large_where_they_must) {
+    const Beam beam{80.0, 0.5, 40.0, 160, 2};
+    const Scene small = double_cantilever(beam, 20.0, "linear"), large = double_cantilever(beam, 20.0),
+                either = double_cantilever(beam, 20.0, "auto");
+    Solver linear(small, 0.0), turned(large, 0.0), chosen(either, 0.0);
+    bool grown = false;
+    std::vector<std::uint8_t> saved;
+    for (int k = 1; k <= 20; ++k) {
+        for (Solver* solver : {&linear, &turned, &chosen}) solver->step(k / 20.0);
+        const bool now = linear.value("rotation_max") > 0.1;
+        if (now && !grown) {  // the step that turns can be taken back
+            const auto first = cases::read_bits(chosen);
+            chosen.rollback();
+            linear.rollback();
+            cases::expect_same(chosen, cases::read_bits(chosen), cases::read_bits(linear), "taken back");
+            for (Solver* solver : {&linear, &chosen}) solver->step(k / 20.0);
+            cases::expect_same(chosen, cases::read_bits(chosen), first, "taken again");
+        }
+        grown = grown || now;
+        for (Solver* solver : {&linear, &turned, &chosen}) solver->commit();
+        const double force = turned.value("reaction:load");
+        if (grown)
+            cases::expect_near(chosen.value("reaction:load"), force, 1e-5, force, "force, step " + std::to_string(k));
+        else
+            cases::expect_same(chosen, cases::read_bits(chosen), cases::read_bits(linear), "small rotations");
+        if (k == 2) cases::expect(!grown, "the first two steps have small rotations");
+        if (k == 2 || k == 12) saved = chosen.save();
+        if (k != 4 && k != 14) continue;
+        Solver resumed(either, 0.0);  // from before the rotations are large, and from after
+        either.require(resumed.load(saved), "delam_solver_load");
+        for (int s = k - 1; s <= k; ++s) {
+            resumed.step(s / 20.0);
+            resumed.commit();
+        }
+        cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(chosen), "saved and loaded");
+    }
+    cases::expect(grown && chosen.value("dissipated") > 0.0, "the crack grows with large rotations");
+    for (const char* key : {"work", "stored_bulk", "stored_interface", "dissipated"})
+        cases::expect_near(chosen.value(key), turned.value(key), 1e-5, turned.value("work"), key);
+}
+
+// Scenes that large rotations do not know stay as they are, and the plan says why.
+TEST(rotations_that_cannot_become_large) {
+    Scene scene = double_cantilever({30.0, 0.5, 10.0, 60, 2}, 10.0, "auto");
+    const double strain[] = {1e-9, 0.0, 0.0, 0.0, 0.0, 0.0};
+    scene.require(
+        delam_problem_add_eigenstrain(scene.problem(), scene.pattern("heat", {0.0, 1.0}, {0.0, 1.0}), 0, strain),
+        "delam_problem_add_eigenstrain");
+    Solver solver(scene, 0.0);
+    solver.step(1.0);
+    cases::expect_below(0.2, solver.value("rotation_max"), "rotation");
+    const std::string plan = delam_solver_plan(solver.get());
+    cases::expect(plan.find("large rotations: left out, option kinematics = auto: they do not know eigenstrains") !=
+                      std::string::npos,
+                  plan);
+    const std::int64_t interface = 0;
+    cases::expect(
+        delam_experimental_solver_follow(solver.get(), 1, &interface, "normal_toughness", nullptr) == DELAM_ERROR_STATE,
+        "sensitivities are followed");
+}
+
+// Iterated operators have unknowns of their own, which bodies that rotate do not know.
+LOOP_TEST(rotations_become_large_with_every_operator, 0, 2) {
+    const Beam beam{60.0, 0.5, 20.0, 120, 2};
+    std::vector<double> force;
+    for (const char* kinematics : {"auto", "corotational"}) {
+        Scene scene = double_cantilever(beam, 6.0, kinematics);
+        scene.text("reduction", loop == 0 ? "condensed" : "iterated");
+        Solver solver(scene, 0.0);
+        for (int k = 1; k <= 8; ++k) {
+            solver.step(k / 8.0);
+            solver.commit();
+        }
+        cases::expect(solver.value("dissipated") > 0.0, "nothing is damaged: nothing was tested");
+        force.push_back(solver.value("reaction:load"));
+    }
+    cases::expect_near(force[0], force[1], 1e-5, force[1], "force");
+}
+
+// A layer that is pulled first and pressed then: stresses that do not make it buckle say nothing of those that do.
+TEST(rotations_become_large_where_loads_turn_round) {
+    Scene scene = cases::make_blocks(2, {{{0.0, 0.0, 0.0}, {20.0, 0.5, 0.0}, {40, 2, 1}}});
+    scene.begin();
+    scene.elastic(-1, 1e3, 0.0);
+    scene.text("kinematics", "auto");
+    const double critical = std::pow(std::acos(-1.0), 2) * 0.25 / 60.0;  // pi^2 h^2 / (3 L)
+    const auto load = scene.pattern("load", {0.0, 1.0, 2.0}, {0.0, -0.5 * critical, 2.0 * critical});
+    const auto ends = [&](double x) {
+        return cases::nodes_where(scene, 0, [&](const double* p) { return std::abs(p[0] - x) < 1e-9; });
+    };
+    for (int k = 0; k < 2; ++k) scene.hold(ends(0.0), cases::unit(2, k));
+    scene.hold(ends(20.0), cases::unit(2, 1));
+    drive(scene, ends(20.0), {-1.0, 0.0}, load);
+    Solver solver(scene, 0.0);
+    double modes = 0.0;
+    for (int k = 1; k <= 20; ++k) {
+        solver.step(0.1 * k);
+        solver.commit();
+        modes += solver.value("buckling_modes");
+    }
+    cases::expect(modes > 0.0, "the layer stays flat");
+}
+
+// A step with a located jump has no tangent; once a host has asked for one, it is taken whole and has.
+TEST(tangents_end_the_search_for_jumps) {
+    const Scene scene = flexure({100.0, 1.0, 12.0, 200, 2}, equal_modes(12.0, 0.1), 6.0, "corotational");
+    Solver solver(scene, 0.0);
+    double tangent = 0.0;
+    for (int k = 1; k <= 3; ++k) {
+        solver.step(k / 6.0);
+        solver.commit();
+    }
+    solver.step(4.0 / 6.0);
+    cases::expect(solver.value("substeps") > 1.0, "the jump is not located");
+    cases::expect(delam_solver_step_tangent(solver.get(), 1, &tangent) == DELAM_ERROR_STATE, "a tangent of substeps");
+    solver.rollback();
+    solver.step(4.0 / 6.0);
+    cases::expect(solver.value("substeps") == 1.0, "the step is not whole");
+    cases::expect(delam_solver_step_tangent(solver.get(), 1, &tangent) == DELAM_OK, "a step that is whole");
+}
+
+// An analysis that is saved goes on to the same jump.
+TEST(saved_analysis_locates_its_jump) {
+    const Scene scene = flexure({100.0, 1.0, 12.0, 200, 2}, equal_modes(12.0, 0.1), 6.0, "corotational");
+    Solver whole(scene, 0.0), resumed(scene, 0.0);
+    for (int k = 1; k <= 4; ++k) {
+        whole.step(k / 6.0);
+        whole.commit();
+        if (k == 3) scene.require(resumed.load(whole.save()), "delam_solver_load");
+    }
+    resumed.step(4.0 / 6.0);
+    resumed.commit();
+    cases::expect(whole.value("jumps") == 1.0, "the jump is located");
+    cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(whole), "in the end");
+}
