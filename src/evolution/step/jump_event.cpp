@@ -19,7 +19,7 @@ namespace {
 constexpr double released_share = 1e-3;  // of the larger of energy and work
 constexpr double load_drop = 0.02;       // of the load
 constexpr double single_row = 1.5;       // a front that moves on by one row of pairs does not jump
-// Of what a step dissipates: the trapezoid of reactions leaves as much of the work open where these fall abruptly. An
+// The trapezoid of reactions leaves this part of what a step dissipates open where the reactions fall abruptly. An
 // end-notched beam whose support ends leaves 0.24 in the step of its jump, cantilevers that open steadily 0.04 at most.
 // (`delam run --set solver.kinematics=corotational`: half changes no iteration of that beam, dcb-elastica, peel,
 // blister and another beam in 15 to 60 steps; twice loses the jump of the first.)
