@@ -174,7 +174,8 @@ TEST(jumps_are_located) {
             released += solver.value("released");
         }
         const double energy = solver.value("stored_bulk") + solver.value("stored_interface");
-        cases::expect_near(energy + solver.value("dissipated") + released, solver.value("work"), 4e-3,
+        // Few steps, whose reactions are joined by straight lines, leave 2.5e-3 open; a jump that is missed 2.4e-2.
+        cases::expect_near(energy + solver.value("dissipated") + released, solver.value("work"), 3e-3,
                            solver.value("work"), "balance");
         REQUIRE(scene, delam_solver_jump_count, solver.get(), &count);
         cases::expect(count == 1, std::to_string(count) + " jumps of a crack in " + std::to_string(steps) + " steps");

@@ -116,6 +116,18 @@ def expect_numbers(what, text, wanted, missing=()):
     expect(("shear_axis" in scene) == any("second" in key for key in wanted), f"{what}: the axis of the first shear")
 
 
+def expect_energies(text, stored, dissipated):
+    """Runs the scene of a deck; the energies belong to its interface in the end."""
+    where, out = os.path.join(folder(), "scene.toml"), os.path.join(folder(), "out")
+    for words in (("import", write(text, "deck.inp"), "--out", where), ("run", where, "--out", out)):
+        code, _, said = delam(*words)
+        expect(code == 0, f"{words[0]}: {said}")
+    with open(os.path.join(out, "history.csv"), encoding="utf-8", newline="") as file:
+        last = list(csv.DictReader(file))[-1]
+    for column, value in (("stored_interface", stored), ("dissipated", dissipated)):
+        expect(math.isclose(float(last[column]), value, rel_tol=1e-9), f"{column} {last[column]} instead of {value}")
+
+
 SECOND = ("second_tangential_stiffness", "second_tangential_onset", "second_tangential_strength",
           "second_tangential_toughness")
 expect_numbers("other stiffnesses", deck(ONE, stiffness=SHEARS, solid=True),
@@ -157,17 +169,10 @@ TURNED = "*ORIENTATION, NAME=TURNED\n0., 1., 0., -1., 0., 0.\n"
 for turned, along, across in ((False, 0.6, 0.8), (True, 0.8, 0.6)):
     moved = "".join(f"{node}, 1, 3\n" for node in range(1, 9)) + "".join(
         f"{node}, 1, 1, {along * slip!r}\n{node}, 2, 2, {across * slip!r}\n{node}, 3, 3\n" for node in range(11, 19))
-    where, out = os.path.join(folder(), "scene.toml"), os.path.join(folder(), "out")
     sliding = TWICE.replace("*BOUNDARY\n1, 1, 3\n2, 2, 3\n", "*BOUNDARY\n" + moved)
     if turned:
         sliding = sliding.replace("*COHESIVE SECTION", TURNED + "*COHESIVE SECTION, ORIENTATION=TURNED")
-    for words in (("import", write(sliding, "deck.inp"), "--out", where), ("run", where, "--out", out)):
-        code, _, said = delam(*words)
-        expect(code == 0, f"{words[0]}: {said}")
-    with open(os.path.join(out, "history.csv"), encoding="utf-8", newline="") as file:
-        last = list(csv.DictReader(file))[-1]
-    for column, value in (("stored_interface", zeta * ENERGY), ("dissipated", spent)):
-        expect(math.isclose(float(last[column]), value, rel_tol=1e-9), f"{column} {last[column]} instead of {value}")
+    expect_energies(sliding, zeta * ENERGY, spent)
 # The same block, with another strength and toughness of the second shear: (Y_1/G_1 + Y_2/G_2)^-1 of both.
 text = deck(POWER, stiffness=SHEARS, strengths="1.5, 2., 3.", solid=True)
 moved = "".join(f"{node}, 1, 3\n" for node in range(1, 9)) + "".join(
@@ -176,15 +181,7 @@ share = 225 * 0.64 / (400 * 0.36 + 225 * 0.64)
 onset, total = 1 / ((1 - share) / 0.005 + share / (3.0 ** 2 / 450)), 1 / ((1 - share) / 2.0 + share / 3.0)
 zeta = (total * math.sqrt(onset / ENERGY) - onset) / (total - onset)
 spent = total * onset * (1 - zeta) / (onset + (total - onset) * zeta)
-where, out = os.path.join(folder(), "scene.toml"), os.path.join(folder(), "out")
-for words in (("import", write(text.replace("*BOUNDARY\n1, 1, 3\n2, 2, 3\n", "*BOUNDARY\n" + moved), "deck.inp"), "--out", where),
-              ("run", where, "--out", out)):
-    code, _, said = delam(*words)
-    expect(code == 0, f"{words[0]}: {said}")
-with open(os.path.join(out, "history.csv"), encoding="utf-8", newline="") as file:
-    last = list(csv.DictReader(file))[-1]
-for column, value in (("stored_interface", zeta * ENERGY), ("dissipated", spent)):
-    expect(math.isclose(float(last[column]), value, rel_tol=1e-9), f"{column} {last[column]} instead of {value}")
+expect_energies(text.replace("*BOUNDARY\n1, 1, 3\n2, 2, 3\n", "*BOUNDARY\n" + moved), zeta * ENERGY, spent)
 for card, pattern in (("", "\"TURNED\" is not there"), ("*ORIENTATION, NAME=TURNED, SYSTEM=CYLINDRICAL\n0., 0., 0., 0., 0., 1.\n",
                                                        "differs from element to element")):
     text = TWICE.replace("*COHESIVE SECTION", card + "*COHESIVE SECTION, ORIENTATION=TURNED")

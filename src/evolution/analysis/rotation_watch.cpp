@@ -21,11 +21,11 @@ constexpr double turning_rotation = 0.1;  // rad
 constexpr double turning_share = 0.005;   // of the energy of the bodies
 constexpr double turning_ratio = 0.1;     // of the critical stresses: bending grows by 1 / (1 - ratio)
 // Energies that rotations add at most, below which nothing is factorised: a part of the share that counts. (Half and
-// twice only factorise more and less often.)
+// twice of this and of the next two turn enf, dcb-elastica and blister in the same steps.)
 constexpr double negligible = 0.1 * turning_share;
 // At fixed damage and contact stresses are in proportion to loads that are; damage makes free parts longer. The ratio
 // is computed anew where the estimate comes this near, and where the debonded part of an interface has grown by this
-// much of it. (Half and twice: as above.)
+// much of it.
 constexpr double safety = 0.5, grown = 0.02;
 
 // Returns the debonded share of each interface.
