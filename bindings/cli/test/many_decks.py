@@ -64,12 +64,14 @@ def one_pair_of_all(n):
     return finished(squares(n, 0.0, 1.0), cards)
 
 
-def cohesive_sections(n):
+def cohesive_sections(n, one=False):
+    """A column of bodies with a cohesive section between each two, of a material of its own or all of one."""
     mesh = squares(n, 0.0, 1.0)
     mesh += "".join(f"*ELEMENT, TYPE=COH2D4, ELSET=C{k}\n{n + k + 1}, {4 * k + 4}, {4 * k + 3}, {4 * k + 6}, {4 * k + 5}\n"
                     for k in range(n - 1))
-    mesh += "".join(f"*COHESIVE SECTION, ELSET=C{k}, MATERIAL=T{k}, RESPONSE=TRACTION SEPARATION\n" for k in range(n - 1))
-    return finished(mesh, "".join(TRACTION.format(f"T{k}") for k in range(n - 1)))
+    mesh += "".join(f"*COHESIVE SECTION, ELSET=C{k}, MATERIAL=T{0 if one else k}, RESPONSE=TRACTION SEPARATION\n"
+                    for k in range(n - 1))
+    return finished(mesh, "".join(TRACTION.format(f"T{k}") for k in range(1 if one else n - 1)))
 
 
 def references(n, cards):
@@ -120,6 +122,7 @@ def steps(n, again="*BOUNDARY\nHELD, 1, 1, {}\n"):
         f"*STEP\n*STATIC, DIRECT\n1.0, 1.0\n{again.format(0.001 * (k % 5))}*END STEP\n" for k in range(n)))
 
 
+REFUSED = ("sections of one set",)  # each but the first, by its line
 KINDS = {
     "instances": instances,
     "instances that touch": lambda n: instances(n, 1.0),
@@ -144,6 +147,7 @@ KINDS = {
     "pairs with bonded sets": lambda n: contact_pairs(n, True, bonded=True),
     "one pair of many bodies": one_pair_of_all,
     "cohesive sections": cohesive_sections,
+    "cohesive sections of one material": lambda n: cohesive_sections(n, one=True),
     "couplings": lambda n: references(n, lambda k: f"*COUPLING, CONSTRAINT NAME=C{k}, REF NODE=R{k}, SURFACE=F{k}\n"
                                                    "*KINEMATIC\n1, 2\n"),
     "rigid bodies": lambda n: references(n, lambda k: f"*RIGID BODY, REF NODE=R{k}, NSET=F{k}\n"),

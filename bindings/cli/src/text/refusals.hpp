@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -68,12 +69,11 @@ public:
 
 private:
     void add(const SceneFailure& failure) {
-        const std::string said = failure.what();
-        if (std::none_of(kept_.begin(), kept_.end(), [&](const SceneFailure& other) { return other.what() == said; }))
-            kept_.push_back(failure);
+        if (said_.insert(failure.what()).second) kept_.push_back(failure);
     }
 
     std::vector<SceneFailure> kept_;
+    std::unordered_set<std::string> said_;  // the texts of those that are kept
 };
 
 }  // namespace cli

@@ -302,15 +302,25 @@ private:
         join_alike();
     }
 
+    // Returns the names of a few sets, or that of the first and how many there are besides.
+    static std::string joined_name(const std::vector<CohesiveSet*>& sets) {
+        constexpr std::size_t most_names = 4;
+        if (sets.size() > most_names) return fmt::format("{}+{}-others", sets.front()->faces, sets.size() - 1);
+        std::string out;
+        for (const CohesiveSet* set : sets) out += (out.empty() ? "" : "+") + set->faces;
+        return out;
+    }
+
     // Sections that say the same may lie in one interface: all of them are one set, too.
     void join_alike() {
         for (const auto& [section, names] : alike_) {
+            std::set<std::size_t> places;
+            for (const std::string& name : names)
+                if (const auto at = cohesive_of_.find(name); at != cohesive_of_.end()) places.insert(at->second);
             std::vector<CohesiveSet*> sets;
-            for (CohesiveSet& set : mesh_.cohesive)
-                if (std::find(names.begin(), names.end(), set.name) != names.end()) sets.push_back(&set);
+            for (const std::size_t place : places) sets.push_back(&mesh_.cohesive[place]);
             if (sets.size() < 2) continue;
-            std::string joined;
-            for (const CohesiveSet* set : sets) joined += (joined.empty() ? "" : "+") + set->faces;
+            std::string joined = joined_name(sets);
             while (mesh_.node_sets.contains(joined)) joined += "-faces";
             std::set<std::int64_t> nodes;
             for (CohesiveSet* set : sets) {
