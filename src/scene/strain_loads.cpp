@@ -25,7 +25,7 @@ StrainLoads strain_loads(const Problem& problem, std::int32_t body, std::span<co
         }
         for (std::size_t i = 0; i < 6; ++i) strain[known][i] += e.strain[i];
     }
-    if (strain.empty()) return loads;
+    if (strain.empty() || problem.stiffness[index(body)] != nullptr) return loads;
     EigenstrainLoads of_body = eigenstrain_loads(*problem.mesh, cells, nodes, problem.model(body), strain);
     for (std::size_t k = 0; k < pattern.size(); ++k) {
         loads.force[pattern[k]] = std::move(of_body.force[k]);

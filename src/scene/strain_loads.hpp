@@ -17,7 +17,8 @@ struct StrainLoads {
 
 // Over all mesh DOFs.
 StrainLoads strain_loads(const Problem& problem);
-// Returns the loads of some cells of a body, over the DOFs of `nodes` (ascending).
+// Returns the loads of some cells of a body, over the DOFs of `nodes` (ascending). A body whose stiffness is given has
+// none: who gives it knows what its strains do.
 StrainLoads strain_loads(const Problem& problem, std::int32_t body, std::span<const std::int64_t> cells,
                          std::span<const std::int64_t> nodes);
 // Scales of the eigenstrains' effect without cancellation, per pattern at factor 1: strain times the extent of the mesh

@@ -321,9 +321,4 @@ TEST(what_rotations_do_not_know_is_refused_by_name) {
     refused("step_control = load", [](Scene& s) { s.text("step_control", "load"); });
     refused("mixity_rule = variational", [](Scene& s) { s.text("mixity_rule", "variational"); });
     refused("reduction = feti", [](Scene& s) { s.text("reduction", "feti"); });
-    refused("eigenstrains", [](Scene& s) {
-        const double strain[] = {1e-3, 0.0, 0.0, 0.0, 0.0, 0.0};
-        s.require(delam_problem_add_eigenstrain(s.problem(), s.pattern("heat", {0.0, 1.0}, {0.0, 1.0}), 0, strain),
-                  "delam_problem_add_eigenstrain");
-    });
 }

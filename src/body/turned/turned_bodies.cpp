@@ -86,6 +86,24 @@ std::vector<double> TurnedBodies::force() const {
     return force;
 }
 
+std::vector<double> TurnedBodies::force_of(const Pulls& pulls) const {
+    std::vector<double> force(index(mesh_.node_count() * mesh_.dimension()), 0.0), own;
+    for (std::int64_t c = 0; c < mesh_.cell_count(); ++c) {
+        if (pulls[index(c)].empty()) continue;
+        own.assign(mesh_.cell(c).size() * index(mesh_.dimension()), 0.0);
+        cells_[index(c)].add_force_of(pulls[index(c)], own);
+        scatter(c, own, force);
+    }
+    return force;
+}
+
+double TurnedBodies::work(const Pulls& pulls) const {
+    double sum = 0.0;
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+        if (!pulls[c].empty()) sum += cells_[c].work(pulls[c]);
+    return sum;
+}
+
 TurnedBodies::Pulls TurnedBodies::pulls() const {
     Pulls pulls;
     pulls.reserve(cells_.size());
@@ -153,14 +171,15 @@ std::vector<double> TurnedBodies::rotation_vectors() const {
     return rotation;
 }
 
-std::vector<double> TurnedBodies::centre_stress(std::span<const BodyModel> models) const {
+std::vector<double> TurnedBodies::centre_stress(std::span<const BodyModel> models,
+                                                std::span<const Strain> eigenstrains) const {
     std::vector<double> own;
     const auto of_cell = [&](std::int64_t c) {
         own = local_displacement(c);
         return std::span<const double>(own);
     };
     std::vector<double> stress =
-        delam::centre_stress(mesh_, models, of_cell, CentreGradients(mesh_).slopes(of_cell), {});
+        delam::centre_stress(mesh_, models, of_cell, CentreGradients(mesh_).slopes(of_cell), eigenstrains);
     const bool plane = mesh_.dimension() == 2;
     const std::size_t columns = plane ? 4 : 6;
     for (std::size_t c = 0; c < cells_.size(); ++c) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "body/eigenstrain.hpp"
 #include "body/model.hpp"
 #include "body/turned/turned_cell.hpp"
 #include "linalg/sparse/sparse.hpp"
@@ -29,8 +30,11 @@ public:
     std::vector<double> force() const;
     // The forces S d of the cells in their frames, which are their stresses; and adds to them their change with
     // displacements of the nodes from here, to first order.
-    using Pulls = std::vector<std::vector<Vector3>>;
+    using Pulls = std::vector<std::vector<Vector3>>;  // [cells][nodes]; of a cell without any: empty
     Pulls pulls() const;
+    // Returns the forces on the nodes [mesh DOFs] of such forces in the frames, and their work along d.
+    std::vector<double> force_of(const Pulls& pulls) const;
+    double work(const Pulls& pulls) const;
     void add_pulls_along(std::span<const double> displacement, Pulls& pulls) const;
     // Sets the tangent of a body over its nodes in ascending order, both triangles, under other stresses. k: empty, or
     // set by this before.
@@ -45,8 +49,9 @@ public:
     std::vector<double> local_displacement(std::int64_t cell) const { return cells_[index(cell)].local_displacement(); }
     // Returns the rotations of the cells, rad: angles [cells], in space vectors [cells][3] along their axes.
     std::vector<double> rotation_vectors() const;
-    // Returns the stresses at the centres of the cells, in global axes (body/assembly.hpp). models: by body index.
-    std::vector<double> centre_stress(std::span<const BodyModel> models) const;
+    // Returns the stresses at the centres of the cells, in global axes (body/assembly.hpp). models, eigenstrains: by
+    // body index; none: no body has any.
+    std::vector<double> centre_stress(std::span<const BodyModel> models, std::span<const Strain> eigenstrains) const;
 
 private:
     void gather(std::int64_t cell, std::span<const double> of_mesh, std::vector<double>& of_cell) const;

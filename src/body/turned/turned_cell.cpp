@@ -174,15 +174,24 @@ std::vector<Vector3> TurnedCell::pull_along(std::span<const double> displacement
     return change;
 }
 
-double TurnedCell::energy() const {
-    double twice = 0.0;
-    for (std::size_t n = 0; n < nodes(); ++n) twice += dot(strain_[n], pull_[n]);
-    return 0.5 * twice;
+double TurnedCell::work(const std::vector<Vector3>& pull) const {
+    double sum = 0.0;
+    for (std::size_t n = 0; n < nodes(); ++n) sum += dot(strain_[n], pull[n]);
+    return sum;
 }
 
-void TurnedCell::add_force(std::span<double> force) const {
+double TurnedCell::energy() const { return 0.5 * work(pull_); }
+
+void TurnedCell::add_force_of(const std::vector<Vector3>& pull, std::span<double> force) const {
+    Vector3 couple{};
+    std::vector<Vector3> of_frame;
+    balance(pull, couple, of_frame);
+    add_force(of_frame, force);
+}
+
+void TurnedCell::add_force(const std::vector<Vector3>& of_frame, std::span<double> force) const {
     for (std::size_t n = 0; n < nodes(); ++n) {
-        const Vector3 f = times(rotation_, force_[n]);
+        const Vector3 f = times(rotation_, of_frame[n]);
         for (std::size_t k = 0; k < dimension_; ++k) force[n * dimension_ + k] += f[k];
     }
 }

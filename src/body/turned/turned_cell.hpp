@@ -44,8 +44,11 @@ public:
     const Matrix3& rotation() const { return rotation_; }
     std::span<const double> stiffness() const { return stiffness_; }
     double energy() const;
-    // Adds the force on the nodes, [nodes][dimension].
-    void add_force(std::span<double> force) const;
+    // Adds the force on the nodes, [nodes][dimension]: that of S d, or that of other forces in the frame.
+    void add_force(std::span<double> force) const { add_force(force_, force); }
+    void add_force_of(const std::vector<Vector3>& pull, std::span<double> force) const;
+    // Returns the work of forces in the frame along d.
+    double work(const std::vector<Vector3>& pull) const;
     enum class Stresses { count, left_out };
     // Sets the tangent, [size][size] row-major, exactly symmetric. Without the stresses, whose forces turn, it is
     // semi-definite.
@@ -64,6 +67,8 @@ public:
 
 private:
     std::size_t nodes() const { return reference_.size(); }
+    // Adds f, turned out of the frame.
+    void add_force(const std::vector<Vector3>& of_frame, std::span<double> force) const;
     // a and f of these forces.
     void balance(const std::vector<Vector3>& pull, Vector3& couple, std::vector<Vector3>& force) const;
     void stiffness_times(std::span<const Vector3> d, std::vector<Vector3>& q) const;

@@ -209,7 +209,7 @@ std::vector<double> Observer::stress() {
     const Mesh& mesh = *problem_.mesh;
     const TurnedBodies* turned = op_.turned(state().response);
     std::vector<double> stress = turned != nullptr
-                                     ? turned->centre_stress(models())
+                                     ? turned->centre_stress(models(), eigenstrains())
                                      : centre_stress(mesh, models(), displacement(), slopes(), eigenstrains());
     const std::int64_t columns = mesh.dimension() == 2 ? 4 : 6;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c)

@@ -20,8 +20,6 @@ namespace {
 // A step leaves at most so many unstable states one after another: bodies that buckle have one or two. (Half and twice
 // of this and of the next two give the same digits of examples/blister and pass verify/cases/test_buckling.)
 constexpr std::int64_t most_modes = 8;
-// A factor as near to 1 is critical at this very load: the energy falls by its square, which is rounding.
-constexpr double neutral = 1e-6;
 // Beyond this share of its fall, what the energy falls by more than on a branch from the critical load is the release
 // of a snap-through. (A strut in 15 steps leaves 0.002, a blister in 60, whose root softens, less than nothing.)
 constexpr double snaps = 0.1;
@@ -57,6 +55,15 @@ std::vector<double> difference(std::span<const double> a, std::span<const double
 std::int64_t most_moved(std::span<const double> mode, int dimension) {
     const auto most = std::ranges::max_element(mode, {}, [](double x) { return std::abs(x); });
     return (most - mode.begin()) / dimension;
+}
+
+// Returns the point of these displacements under their own stresses.
+TurnedPoint point_at(std::span<const double> theta, std::span<const double> displacement,
+                     TurnedCell::Stresses stresses = TurnedCell::Stresses::count) {
+    return {{displacement.begin(), displacement.end()}, {}, {}, stresses, {theta.begin(), theta.end()}};
+}
+TurnedPoint point_at(const State& state, TurnedCell::Stresses stresses = TurnedCell::Stresses::count) {
+    return point_at(state.theta, state.response.multipliers, stresses);
 }
 
 // Returns what a linear step lowers, F L.
@@ -99,7 +106,16 @@ TurnedSteps::~TurnedSteps() = default;
 
 Stepper& TurnedSteps::linearise(const TurnedPoint& about, std::span<const double> at,
                                 std::span<const double> row_force) const {
-    if (!linear_) linear_ = std::make_unique<Linear>(op_.scene());
+    if (!linear_) {
+        linear_ = std::make_unique<Linear>(op_.scene());
+        // The first stiffness decides how the operator is cut into pieces, and with it the last digits. It is that of
+        // no displacements, whichever state an analysis that goes on begins with.
+        const std::vector<double> zero(op_.dofs(), 0.0);
+        if (!std::ranges::equal(at, zero)) {
+            const std::vector<double> unloaded(problem_.patterns.size(), 0.0), no_force(row_force.size(), 0.0);
+            (void)linearise(point_at(unloaded, zero, Stresses::left_out), zero, no_force);
+        }
+    }
     Linear& linear = *linear_;
     const bool turned = linear.about == about;
     if (turned && std::ranges::equal(linear.at, at) && std::ranges::equal(linear.row_force, row_force))
@@ -131,13 +147,13 @@ Stepper::Result TurnedSteps::solve_about(TurnedPoint& about, std::span<const dou
     } catch (const Error& error) {
         if (about.stresses == Stresses::left_out || !unstable(error)) throw;
     }
-    about = {{at.begin(), at.end()}, {}, {}, Stresses::left_out};
+    about = point_at(about.theta, at, Stresses::left_out);
     return solve(linearise(about, at, row_force), from);
 }
 
 std::vector<double> TurnedSteps::tangent_about(const TurnedPoint& about, const State& state, const State& at) const {
     try {
-        return without_last(linearise(about, state.response.multipliers, state.response.force).tangent(at));
+        return of_patterns(linearise(about, state.response.multipliers, state.response.force).tangent(at));
     } catch (const Error& error) {
         if (!unstable(error)) throw;
         return {};
@@ -153,17 +169,17 @@ TurnedSteps::Known TurnedSteps::know(const State& state) const {
     State at = extended(state, problem_.patterns.size());
     at.theta.back() = 1.0;
     State open = at;
-    const double load = max_abs(op_.reaction(state.theta, state.response));
+    const double load = op_.load_size(state.theta, state.response);
     const auto dim = index(problem_.mesh->dimension());
     for (std::size_t p = 0; p < open.closed.size(); ++p)
         if (!(-state.response.force[p * dim] > problem_.options.limits.turned_balance * load)) open.closed[p] = 0;
     known.held = open.closed;
     if (known.about.stresses == Stresses::count) known.tangent = tangent_about(known.about, state, open);
     if (!known.tangent.empty()) return known;
-    known.about = {state.response.multipliers, {}, {}};
+    known.about = point_at(state);
     known.tangent = tangent_about(known.about, state, open);
     if (!known.tangent.empty()) return known;
-    const TurnedPoint unstressed{state.response.multipliers, {}, {}, Stresses::left_out};
+    const TurnedPoint unstressed = point_at(state, Stresses::left_out);
     if (open.closed != at.closed && tangent_about(unstressed, state, open).empty()) {
         known.held = at.closed;
         known.tangent = tangent_about(known.about, state, at);
@@ -201,7 +217,8 @@ TurnedSteps::Begin TurnedSteps::begin(const State& before) const {
     Begin from{before.response.multipliers, before.response.force, {}, first, none, none};
     from.displacement.resize(op_.dofs(), 0.0);
     from.row_force.resize(index(problem_.jump_count()), 0.0);
-    from.about = first ? TurnedPoint{from.displacement, {}, {}} : point_of(before);
+    const std::vector<double> unloaded(problem_.patterns.size(), 0.0);
+    from.about = first ? point_at(unloaded, from.displacement) : point_of(before);
     return from;
 }
 
@@ -214,7 +231,7 @@ TurnedSteps::Begin TurnedSteps::begin_at(const EnergyFall& fall, const State& st
     const double level = fall.penetrates ? none : fall.energy + state.ledger.dissipated;
     return {fall.displacement,
             state.response.force,
-            {fall.displacement, {}, {}, Stresses::left_out},
+            point_at(state.theta, fall.displacement, Stresses::left_out),
             false,
             level,
             op_.unbalanced(at.theta, at.response).off,
@@ -250,8 +267,8 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
         const bool balanced = at_rest(off, rounding) && (definite || (std::exchange(rested, true) && !falls_on));
         next.state.outcome.turned_off = balanced ? 0.0 : off;
         // The next step begins with this stiffness, unless that of the result differs.
-        const bool near = own && definite && off < limits.turned_kept * off_before;
-        next.state.memory = (near ? about : TurnedPoint{next.state.response.multipliers, {}, {}}).numbers();
+        const bool near = own && definite && off < limits.turned_kept * off_before && about.theta == next.state.theta;
+        next.state.memory = (near ? about : point_at(next.state)).numbers();
         if (balanced || n == limits.turned_most) {
             next.converged = next.converged && balanced;
             return next;
@@ -280,7 +297,7 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
             off_before = off;
         }
         if (kept) continue;
-        about = {at, origin, std::move(about.displacement)};
+        about = {at, origin, std::move(about.displacement), Stresses::count, next.state.theta};
         own = true;
     }
 }
@@ -291,7 +308,7 @@ bool TurnedSteps::keeps_stiffness() const { return linear_->stepper->op().traits
 // along a way on which stresses grow in proportion, this is exact.
 double TurnedSteps::critical_share(const State& before, const BucklingMode& mode, const State& state) const {
     const auto softened = [&](const State& of) {
-        const std::vector<SparseMatrix> soft = op_.softening(of.response.multipliers);
+        const std::vector<SparseMatrix> soft = op_.softening(of.theta, of.response.multipliers);
         return dot(op_.multiply_bodies(soft, mode.displacement), mode.displacement);
     };
     const double share_before = softened(before) / softened(state);  // of the factor
@@ -301,9 +318,9 @@ double TurnedSteps::critical_share(const State& before, const BucklingMode& mode
 
 BucklingMode TurnedSteps::mode_of(const State& state, std::span<const std::uint8_t> held) const {
     const std::vector<double>& place = state.response.multipliers;
-    Linear& linear = (linearise({place, {}, {}, Stresses::left_out}, place, state.response.force), *linear_);
+    Linear& linear = (linearise(point_at(state, Stresses::left_out), place, state.response.force), *linear_);
     linear.at.clear();
-    const std::vector<SparseMatrix> soft = op_.softening(place);
+    const std::vector<SparseMatrix> soft = op_.softening(state.theta, place);
     const Springs springs{spring_stiffness(pairs_, state.adhesion), held_rows(linear.stepper->contact(), held)};
     std::vector<double> theta(problem_.patterns.size() + 1, 0.0);
     theta.back() = 1.0;
@@ -328,7 +345,7 @@ bool TurnedSteps::held_by_faces(const State& state, Known& known) const {
         touching_pairs(linear_->stepper->contact(), op_, scene_size(*problem_.mesh), state.response.jump);
     for (std::size_t p = 0; p < at.closed.size(); ++p)
         if (touching[p] != 0) at.closed[p] = 1;
-    const TurnedPoint about{state.response.multipliers, {}, {}};
+    const TurnedPoint about = point_at(state);
     known.tangent = tangent_about(about, state, at);
     if (known.tangent.empty()) return false;
     known.about = about;
@@ -339,6 +356,8 @@ bool TurnedSteps::held_by_faces(const State& state, Known& known) const {
 double TurnedSteps::leave_unstable(const State& before, const Solve& solve, Stepper::Result& result,
                                    Known& known) const {
     const Limits& limits = problem_.options.limits;
+    // A factor as near to 1 is critical at this very load: the energy falls by its square, which is rounding.
+    const double neutral = std::sqrt(limits.minimise_energy_rounding);
     const State first = result.state;
     const std::vector<double> d = difference(first.theta, before.theta);
     double share = 1.0;
@@ -444,26 +463,27 @@ Stepper::Result TurnedSteps::equilibrate(const State& before, double time, std::
     return result;
 }
 
-std::vector<double> TurnedSteps::without_last(std::span<const double> matrix) const {
+std::vector<double> TurnedSteps::of_patterns(std::span<const double> matrix) const {
     const std::size_t patterns = problem_.patterns.size();
     std::vector<double> own;
     for (std::size_t i = 0; i < patterns; ++i)
         for (std::size_t j = 0; j < patterns; ++j) own.push_back(matrix[i * (patterns + 1) + j]);
+    op_.add_strain_energy(own);
     return own;
 }
 
 std::vector<double> TurnedSteps::tangent(const State& state) const {
-    Stepper& about = linearise({state.response.multipliers, {}, {}}, state.response.multipliers, state.response.force);
+    Stepper& about = linearise(point_at(state), state.response.multipliers, state.response.force);
     State own = extended(state, problem_.patterns.size());
     own.theta.back() = 1.0;
-    return without_last(about.tangent(own));
+    return of_patterns(about.tangent(own));
 }
 
 std::vector<double> TurnedSteps::step_tangent(const State& before, const State& state) const {
-    Stepper& about = linearise({state.response.multipliers, {}, {}}, state.response.multipliers, state.response.force);
+    Stepper& about = linearise(point_at(state), state.response.multipliers, state.response.force);
     State own = extended(state, problem_.patterns.size());
     own.theta.back() = 1.0;
-    return without_last(about.step_tangent(extended(before, problem_.patterns.size()), own));
+    return of_patterns(about.step_tangent(extended(before, problem_.patterns.size()), own));
 }
 
 void delegate_to_turned_steps(Stepper& stepper, const Problem& problem, Monitor& monitor) {

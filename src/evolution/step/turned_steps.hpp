@@ -63,7 +63,7 @@ private:
     };
     Known know(const State& state) const;
     static TurnedPoint point_of(const State& state) {
-        return TurnedPoint::of(state.memory, state.response.multipliers);
+        return TurnedPoint::of(state.memory, state.response.multipliers, state.theta);
     }
     // Returns the tangent of a state at another contact set, in the scene about a point; empty: there is none.
     std::vector<double> tangent_about(const TurnedPoint& about, const State& state, const State& at) const;
@@ -101,8 +101,9 @@ private:
     [[noreturn]] static void refuse_buckling(double time);
     // Replaces what the linear scene says of a state by what is true at its displacements.
     void make_true(State& state) const;
-    // Leaves out the row and the column of the additional pattern.
-    std::vector<double> without_last(std::span<const double> matrix) const;
+    // Returns a tangent of the linear scene without the row and the column of the additional pattern, and with the
+    // energy that eigenstrains store without displacements.
+    std::vector<double> of_patterns(std::span<const double> matrix) const;
 
     const Problem& problem_;
     Monitor& monitor_;

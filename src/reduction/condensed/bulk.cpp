@@ -37,7 +37,9 @@ bool Bulk::renew(Renewed what, Monitor& monitor) {
     }
     equations_ = TrailingEquations(variables(), static_cast<std::int64_t>(problem_.patterns.size()), *superelements_);
     if (what == Renewed::all) factorise(condensing);
-    take_loads(what == Renewed::all ? 0 : problem_.patterns.size() - 1, condensing);
+    // Only the last pattern has other forces, unless those of eigenstrains turn with the bodies.
+    const bool all = what == Renewed::all || !problem_.eigenstrains.empty();
+    take_loads(all ? 0 : problem_.patterns.size() - 1, condensing);
     return true;
 }
 

@@ -151,16 +151,19 @@ AssembledBodies assemble_bodies(std::shared_ptr<const Problem> problem, Monitor&
     return assembled(std::move(problem), monitor);
 }
 
-StrainLoads BodySystem::find_loads() {
-    StrainLoads strained = strain_loads(problem_);
-    const std::size_t patterns = problem_.patterns.size();
-    force_.assign(patterns, {});
+void BodySystem::find_dead_forces() {
+    force_.assign(problem_.patterns.size(), {});
     for (const NodalForce& f : problem_.forces) {
         auto& force = force_[index(f.pattern)];
         if (force.empty()) force.assign(index(dofs()), 0.0);
         force[index(f.dof)] += f.value;
     }
-    for (std::size_t p = 0; p < patterns; ++p)
+}
+
+StrainLoads BodySystem::find_loads() {
+    StrainLoads strained = strain_loads(problem_);
+    find_dead_forces();
+    for (std::size_t p = 0; p < force_.size(); ++p)
         if (!strained.force[p].empty()) force_[p] = std::move(strained.force[p]);
     return strained;
 }

@@ -36,7 +36,9 @@ public:
     SparseMatrix transformed(const Poll& poll) const;
     // Computes the forces of all patterns. The forces in the result have been taken out of it.
     StrainLoads find_loads();
-    // [patterns][mesh DOFs], empty: none; dead forces and those of eigenstrains
+    // Computes the dead forces alone.
+    void find_dead_forces();
+    // [patterns][mesh DOFs], empty: none; dead forces, and those of eigenstrains
     const std::vector<std::vector<double>>& force() const { return force_; }
 
     // U theta

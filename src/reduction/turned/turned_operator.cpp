@@ -12,6 +12,7 @@
 #include "linalg/dense/dense.hpp"
 #include "reduction/operator/body_reactions.hpp"
 #include "reduction/operator/jump_variables.hpp"
+#include "scene/strain_loads.hpp"
 
 namespace delam {
 
@@ -32,6 +33,32 @@ void add_product(const SparseMatrix& k, std::span<const std::int64_t> nodes, std
     for (std::size_t i = 0; i < u.size(); ++i) force[index(nodes[i / dim]) * dim + i % dim] += f[i];
 }
 
+// Returns the eigenstrains of the cells, each in the axes of the mesh, to which its frame turns back.
+TurnedStrains strains_of(const Problem& problem) {
+    const Mesh& mesh = *problem.mesh;
+    const std::size_t patterns = problem.patterns.size(), dim = index(mesh.dimension());
+    std::vector<TurnedBodies::Pulls> pulls(patterns);
+    std::vector<double> energy(patterns * patterns, 0.0);
+    if (problem.eigenstrains.empty()) return {std::move(pulls), std::move(energy)};
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        const auto cell = mesh.cell(c);
+        std::vector<std::int64_t> nodes(cell.begin(), cell.end());
+        std::sort(nodes.begin(), nodes.end());
+        const StrainLoads own = strain_loads(problem, mesh.cell_body(c), std::span(&c, 1), nodes);
+        for (std::size_t i = 0; i < energy.size(); ++i) energy[i] += own.energy[i];
+        for (std::size_t p = 0; p < patterns; ++p) {
+            if (own.force[p].empty()) continue;
+            pulls[p].resize(index(mesh.cell_count()));
+            std::vector<Vector3>& pull = pulls[p][index(c)];
+            for (const std::int64_t node : cell) {
+                const std::ptrdiff_t at = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
+                std::copy_n(&own.force[p][index(at) * dim], dim, pull.emplace_back().begin());
+            }
+        }
+    }
+    return {std::move(pulls), std::move(energy)};
+}
+
 // Adds these forces to the dead ones, as the last pattern of the scene.
 void add_forces(const Problem& problem, std::span<const double> force, LinearScene& scene) {
     scene.problem.forces = problem.forces;
@@ -49,8 +76,10 @@ std::vector<double> TurnedPoint::numbers() const {
     return numbers;
 }
 
-TurnedPoint TurnedPoint::of(std::span<const double> numbers, std::span<const double> displacement) {
+TurnedPoint TurnedPoint::of(std::span<const double> numbers, std::span<const double> displacement,
+                            std::span<const double> theta) {
     TurnedPoint point{{displacement.begin(), displacement.end()}, {}, {}};
+    point.theta.assign(theta.begin(), theta.end());
     if (numbers.empty()) return point;
     point.stresses = numbers.front() != 0.0 ? TurnedCell::Stresses::count : TurnedCell::Stresses::left_out;
     const std::size_t dofs = displacement.size();
@@ -70,8 +99,9 @@ TurnedOperator::TurnedOperator(const Problem& problem, const Poll& poll)
       jumps_(std::make_unique<TurnedJumps>(problem, carriers_)),
       prescribed_(delam::prescribed_rows(bodies_->variables())),
       no_row_force_(index(problem.jump_count()), 0.0),
-      turned_(std::make_unique<TurnedBodies>(*problem.mesh, models_of(problem))) {
-    bodies_->find_loads();
+      turned_(std::make_unique<TurnedBodies>(*problem.mesh, models_of(problem))),
+      strains_(std::make_unique<const TurnedStrains>(strains_of(problem))) {
+    bodies_->find_dead_forces();
     call_if_set(poll);
 }
 
@@ -85,12 +115,20 @@ TurnedBodies& TurnedOperator::at(std::span<const double> displacement) const {
     return *turned_;
 }
 
+TurnedBodies::Pulls TurnedOperator::pulls(std::span<const double> theta, std::span<const double> displacement) const {
+    TurnedBodies::Pulls pulls = at(displacement).pulls();
+    strains_->subtract(theta, pulls);
+    return pulls;
+}
+
 LinearScene TurnedOperator::scene() const {
     LinearScene scene{problem_, std::make_shared<Mesh>(*problem_.mesh), {}};
     Problem& about = scene.problem;
     about.options.kinematics = "linear";
     about.renewed = true;
     about.mesh = scene.mesh;
+    for (Pattern& pattern : about.patterns)  // strains are forces on nodes there
+        if (pattern.drives == Pattern::Drives::strain) pattern.drives = Pattern::Drives::force;
     about.patterns.push_back({"linearisation", {0.0}, {1.0}, Pattern::Drives::force});
     for (std::int32_t body = 0; body < scene.mesh->body_count(); ++body) {
         auto given = std::make_shared<HostStiffness>();
@@ -107,13 +145,13 @@ LinearScene TurnedOperator::scene() const {
 void TurnedOperator::turn(LinearScene& scene, const TurnedPoint& point) const {
     TurnedBodies::Pulls pulls;
     if (!point.from.empty()) {
-        pulls = at(point.from).pulls();
+        pulls = this->pulls(point.theta, point.from);
         std::vector<double> moved = point.displacement;
         add_scaled(-1.0, point.from, moved);
         at(point.along).add_pulls_along(moved, pulls);
     }
     const TurnedBodies& bodies = at(point.displacement);
-    if (point.from.empty()) pulls = bodies.pulls();
+    if (point.from.empty()) pulls = this->pulls(point.theta, point.displacement);
     for (std::size_t i = 0; i < problem_.interfaces.size(); ++i) turn_frames(*scene.mesh, i, jumps_->frames(i));
     for (std::size_t b = 0; b < scene.stiffness.size(); ++b)
         bodies.set_tangent(static_cast<std::int32_t>(b), point.stresses, pulls, scene.stiffness[b]->matrix);
@@ -131,6 +169,11 @@ void TurnedOperator::load(LinearScene& scene, std::span<const double> displaceme
     for (const auto& given : scene.stiffness)
         add_product(given->matrix, given->pieces.front().nodes, dim, displacement, force);
     add_forces(problem_, force, scene);
+    const std::vector<std::vector<double>> of_strains = strains_->forces(bodies);
+    for (std::size_t p = 0; p < of_strains.size(); ++p)
+        for (std::size_t i = 0; i < of_strains[p].size(); ++i)
+            if (const double f = of_strains[p][i]; f != 0.0)
+                scene.problem.forces.push_back({static_cast<std::int64_t>(p), static_cast<std::int64_t>(i), f});
     scene.problem.jump_offset = jumps_->beyond(*scene.mesh);
 }
 
@@ -139,9 +182,10 @@ void TurnedOperator::load_forces(LinearScene& scene, std::span<const double> for
     scene.problem.jump_offset.assign(index(problem_.jump_count()), 0.0);
 }
 
-std::vector<SparseMatrix> TurnedOperator::softening(std::span<const double> displacement) const {
+std::vector<SparseMatrix> TurnedOperator::softening(std::span<const double> theta,
+                                                    std::span<const double> displacement) const {
+    const TurnedBodies::Pulls pulls = this->pulls(theta, displacement);
     const TurnedBodies& bodies = at(displacement);
-    const TurnedBodies::Pulls pulls = bodies.pulls();
     std::vector<SparseMatrix> soft(index(problem_.mesh->body_count()));
     for (std::size_t b = 0; b < soft.size(); ++b) {
         const auto body = static_cast<std::int32_t>(b);
@@ -166,7 +210,8 @@ void TurnedOperator::complete(std::span<const double> theta, std::vector<double>
                               Response& response) const {
     const TurnedBodies& bodies = at(displacement);
     response.jump = jumps_->jumps(theta);
-    response.stored_bulk = bodies.energy();
+    response.stored_bulk = bodies.energy() + strains_->energy(theta, bodies);
+    strains_->set_conjugate(theta, bodies, response.conjugate);
     response.load_potential = 0.0;
     for (std::size_t p = 0; p < theta.size(); ++p)
         if (const std::vector<double>& force = bodies_->force()[p]; !force.empty())
@@ -176,20 +221,29 @@ void TurnedOperator::complete(std::span<const double> theta, std::vector<double>
     response.support = {};
 }
 
-std::vector<double> TurnedOperator::internal_force(const Response& response) const {
+std::vector<double> TurnedOperator::internal_force(std::span<const double> theta, const Response& response) const {
     const TurnedBodies& bodies = at(response.multipliers);
     std::vector<double> force = bodies.force();
+    const std::vector<std::vector<double>> of_strains = strains_->forces(bodies);
+    for (std::size_t p = 0; p < of_strains.size(); ++p)
+        if (!of_strains[p].empty()) add_scaled(-theta[p], of_strains[p], force);
     jumps_->add_pulls(response.force, force);
     jumps_->add_couples(bodies, response.force, force);
     return force;
 }
 
+double TurnedOperator::load_size(std::span<const double> theta, const Response& response) const {
+    double load = max_abs(reaction(theta, response));
+    const std::vector<std::vector<double>> of_strains = strains_->forces(at(response.multipliers));
+    for (const auto* forces : {&bodies_->force(), &of_strains})
+        for (std::size_t p = 0; p < theta.size(); ++p)
+            if (!(*forces)[p].empty()) load = std::max(load, std::abs(theta[p]) * max_abs((*forces)[p]));
+    return std::max(load, std::numeric_limits<double>::min());
+}
+
 TurnedOperator::Unbalanced TurnedOperator::unbalanced(std::span<const double> theta, const Response& response) const {
-    const std::vector<double> force = internal_force(response);
-    double load = max_abs(body_reactions(*bodies_, theta, force, no_row_force_));
-    for (std::size_t p = 0; p < theta.size(); ++p)
-        if (!bodies_->force()[p].empty()) load = std::max(load, std::abs(theta[p]) * max_abs(bodies_->force()[p]));
-    load = std::max(load, std::numeric_limits<double>::min());
+    const std::vector<double> force = internal_force(theta, response);
+    const double load = load_size(theta, response);
     // Forces are differences of places, which have the rounding of the largest; a node adds some ten of them.
     constexpr double terms = 10.0;
     const double farthest = max_abs(problem_.mesh->nodes()) + max_abs(response.multipliers);
@@ -202,7 +256,7 @@ void TurnedOperator::solve(const Springs&, std::span<const double>, Response&) {
 }
 
 std::vector<double> TurnedOperator::reaction(std::span<const double> theta, const Response& response) const {
-    return body_reactions(*bodies_, theta, internal_force(response), no_row_force_);
+    return body_reactions(*bodies_, theta, internal_force(theta, response), no_row_force_);
 }
 
 std::vector<double> TurnedOperator::displacement(std::span<const double>, const Response& response) const {
@@ -210,7 +264,7 @@ std::vector<double> TurnedOperator::displacement(std::span<const double>, const 
 }
 
 double TurnedOperator::equilibrium_defect(std::span<const double> theta, const Response& response) const {
-    return delam::equilibrium_defect(*bodies_, theta, internal_force(response), no_row_force_);
+    return delam::equilibrium_defect(*bodies_, theta, internal_force(theta, response), no_row_force_);
 }
 
 void TurnedOperator::require_memory(std::span<const double> memory) const {

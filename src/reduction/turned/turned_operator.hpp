@@ -13,6 +13,7 @@
 
 #include "base/monitor.hpp"
 #include "body/turned/turned_bodies.hpp"
+#include "body/turned/turned_strains.hpp"
 #include "reduction/operator/body_system.hpp"
 #include "reduction/operator/jump_operator.hpp"
 #include "reduction/turned/turned_jumps.hpp"
@@ -29,10 +30,12 @@ namespace delam {
 struct TurnedPoint {
     std::vector<double> displacement, from, along;  // [mesh DOFs]
     TurnedCell::Stresses stresses = TurnedCell::Stresses::count;
+    std::vector<double> theta{};  // [patterns] the factors of the eigenstrains
     bool operator==(const TurnedPoint&) const = default;
     // Returns it as the numbers that a state remembers, and back. None say that it was linearised at its displacements.
     std::vector<double> numbers() const;
-    static TurnedPoint of(std::span<const double> numbers, std::span<const double> displacement);
+    static TurnedPoint of(std::span<const double> numbers, std::span<const double> displacement,
+                          std::span<const double> theta);
 };
 
 struct LinearScene {
@@ -54,20 +57,25 @@ public:
     // Sets its stiffness and frames to those of a point. Where stresses are left out, it is semi-definite.
     void turn(LinearScene& scene, const TurnedPoint& point) const;
     // Sets its loads, so that at these displacements, which need not be those of turn(), and forces of the rows,
-    // forces on nodes and jumps are the true ones. Couples are held as they are.
+    // forces on nodes and jumps are the true ones, at any factors of the patterns. Couples are held as they are.
     void load(LinearScene& scene, std::span<const double> displacement, std::span<const double> row_force) const;
     // Sets its loads to these forces on the nodes alone, [mesh DOFs], in the additional pattern.
     void load_forces(LinearScene& scene, std::span<const double> force) const;
     // Returns by how much their stresses soften the bodies at displacements, each body over its nodes: the stiffness
     // without stresses less that with them.
-    std::vector<SparseMatrix> softening(std::span<const double> displacement) const;
+    std::vector<SparseMatrix> softening(std::span<const double> theta, std::span<const double> displacement) const;
     // Returns the forces of such matrices at displacements, [mesh DOFs].
     std::vector<double> multiply_bodies(std::span<const SparseMatrix> of_bodies,
                                         std::span<const double> displacement) const;
-    // Sets what belongs to the displacements: jumps, energies, unknowns. The forces of rows stay.
+    // Sets what belongs to the displacements: jumps, energies, unknowns, and the derivatives of the energy with respect
+    // to factors of eigenstrains. The forces of rows, and the other derivatives, stay.
     void complete(std::span<const double> theta, std::vector<double> displacement, Response& response) const;
-    // The largest unbalanced force, and the rounding of such forces, both over the load: the largest reaction or dead
-    // force.
+    // Adds to the derivatives of those, as the linear scene has them [patterns][patterns], the energy that eigenstrains
+    // store without displacements.
+    void add_strain_energy(std::span<double> tangent) const { strains_->add_energy(tangent); }
+    // Returns the largest reaction, dead force or nodal force of eigenstrains, F.
+    double load_size(std::span<const double> theta, const Response& response) const;
+    // The largest unbalanced force, and the rounding of such forces, both over the load.
     struct Unbalanced {
         double off, rounding;
     };
@@ -85,8 +93,10 @@ public:
 
 private:
     TurnedBodies& at(std::span<const double> displacement) const;
-    // Forces of cells and interfaces on the nodes.
-    std::vector<double> internal_force(const Response& response) const;
+    // Returns the forces of the cells in their frames, with those of eigenstrains.
+    TurnedBodies::Pulls pulls(std::span<const double> theta, std::span<const double> displacement) const;
+    // Returns the forces of cells and interfaces on the nodes.
+    std::vector<double> internal_force(std::span<const double> theta, const Response& response) const;
 
     const Problem& problem_;
     std::unique_ptr<BodySystem> bodies_;
@@ -95,6 +105,7 @@ private:
     std::vector<std::uint8_t> prescribed_;
     std::vector<double> no_row_force_;
     std::unique_ptr<TurnedBodies> turned_;
+    std::unique_ptr<const TurnedStrains> strains_;
     mutable std::vector<double> at_;  // the displacements of turned_
 };
 

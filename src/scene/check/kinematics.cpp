@@ -35,8 +35,6 @@ std::string unknown_to_rotations(const Problem& problem) {
         if (problem.stiffness[index(body)] != nullptr || mesh.host_body(body))
             return text("the stiffness that the host gives, of body ", mesh.body_label(body),
                         ", which says nothing about rotations", instead);
-    if (!problem.eigenstrains.empty())
-        return text("eigenstrains, as of body ", mesh.body_label(problem.eigenstrains.front().body), instead);
     for (std::size_t i = 0; i < mesh.interfaces().size(); ++i)
         if (mesh.interfaces()[i].body_a < 0) return text("obstacles, as that of interface ", i, instead);
     const Carriers carriers(problem);

@@ -10,13 +10,11 @@ namespace cli::abaqus {
 namespace {
 
 // Returns what of a deck large rotations do not know (src/scene/check/kinematics.cpp); empty: nothing.
-std::string unknown_part(const Deck& deck, const References& references) {
-    if (references.any())
-        return "nodes that belong to no body, as *COUPLING, *RIGID BODY and *EQUATION use them, do not turn with large "
-               "rotations: prescribe displacements of nodes instead";
-    const bool heated =
-        std::any_of(deck.steps.begin(), deck.steps.end(), [](const Step& step) { return !step.temperatures.empty(); });
-    return heated ? "thermal strains are not known with large rotations" : "";
+std::string unknown_part(const References& references) {
+    return references.any()
+               ? "nodes that belong to no body, as *COUPLING, *RIGID BODY and *EQUATION use them, do not turn with "
+                 "large rotations: prescribe displacements of nodes instead"
+               : "";
 }
 
 }  // namespace
@@ -29,7 +27,7 @@ std::string kinematics_key(Deck& deck, const References& references) {
             deck.changed.emplace_back("NLGEOM=NO: kinematics = \"linear\", which is that of a scene that names none");
         return "";
     }
-    if (const std::string unknown = unknown_part(deck, references); !unknown.empty()) {
+    if (const std::string unknown = unknown_part(references); !unknown.empty()) {
         deck.changed.push_back(
             fmt::format("NLGEOM=YES: small displacements and rotations here, kinematics = \"linear\", because {}; the "
                         "program warns where cells rotate by more than 0.1 rad",
