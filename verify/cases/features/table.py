@@ -8,6 +8,7 @@ features together and says what comes of them."""
 import itertools
 import logging
 import pathlib
+import re
 import string
 import sys
 import textwrap
@@ -35,7 +36,9 @@ class Table:
         self.entries = {}  # outcomes by features
 
     def judge(self, features):
-        entry = self.entries[features] = outcome((*self.with_all, *features))
+        letter, text = outcome((*self.with_all, *features))
+        # How many substeps a step takes, rounding decides.
+        entry = self.entries[features] = letter, re.sub(r"\b\d+ substeps", "several substeps", text)
         if entry[0] != WORKS:
             print(f"{self.dimension}: {names(features)}: {entry[0]} {entry[1]}", flush=True)
 
