@@ -14,6 +14,7 @@
 
 #include <dlfcn.h>
 
+#include "blas_kernels.hpp"
 #include "command/line/program.hpp"
 #include "delam/petsc.h"
 #include "file/descriptors.hpp"
@@ -221,6 +222,7 @@ int on_all_ranks(const Processes& processes, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    cli::choose_blas_kernels(argv);
     cli::open_standard_descriptors();
     one_blas_thread();
     const Processes processes(argc, argv);
