@@ -21,13 +21,13 @@ bool meet(const Box& a, const Box& b) {
     return true;
 }
 
+}  // namespace
+
 double distance(const Box& box, const Point& p) {
     double d[3];
     for (std::size_t i = 0; i < 3; ++i) d[i] = std::max({box.low[i] - p[i], p[i] - box.high[i], 0.0});
     return std::hypot(d[0], d[1], d[2]);
 }
-
-}  // namespace
 
 BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
     std::iota(order_.begin(), order_.end(), std::int64_t{0});

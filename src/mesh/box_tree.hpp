@@ -17,6 +17,9 @@ struct Box {
     Point high{};
 };
 
+// Returns how far a point is from a box; 0 within.
+double distance(const Box& box, const Point& p);
+
 class BoxTree {
 public:
     explicit BoxTree(std::vector<Box> boxes);

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
+#include <span>
 
 #include "mesh/faces.hpp"
 #include "mesh/points.hpp"
@@ -107,12 +109,14 @@ private:
 };
 
 // Returns the closest point of the straight line between two points of the reference cell: the best of three starting
-// points.
+// points, where it may be curved in space.
 Parameters closest_on_line(const Chart& chart, const Parameters& from, const Parameters& to, const Point& x) {
     const Parameters along{to[0] - from[0], to[1] - from[1]};
     const auto on = [&](double t) { return Parameters{from[0] + t * along[0], from[1] + t * along[1]}; };
     std::pair best{std::numeric_limits<double>::infinity(), 0.0};
-    for (double t : {0.5, 0.0, 1.0}) {
+    constexpr std::array<double, 3> starts{0.5, 0.0, 1.0};
+    const bool straight = chart.nodes() == chart.corners();
+    for (double t : std::span(starts).first(straight ? 1 : starts.size())) {
         for (int step = 0; step < most_steps; ++step) {
             const Chart::Value v = chart(on(t));
             Point tangent;
@@ -165,6 +169,19 @@ double distortion(const Mesh& mesh, const BoundaryFace& face) {
             most = std::max(most, length(tangent[i] - at_centre[i]) / length(at_centre[i]));
     }
     return most;
+}
+
+NormalCone normal_cone(const Mesh& mesh, const BoundaryFace& face) {
+    const Chart chart(mesh, face);
+    NormalCone cone{chart.point(chart.centre()).normal, 0.0};
+    double least = 1.0;
+    for (std::size_t k = 0; k < chart.nodes(); ++k) {
+        const double cosine = dot(chart.point(chart.node(k)).normal, cone.axis);
+        if (!std::isfinite(cosine)) return {cone.axis, std::numbers::pi};
+        least = std::min(least, cosine);
+    }
+    cone.angle = std::acos(std::clamp(least, -1.0, 1.0));
+    return cone;
 }
 
 FacePoint closest_point(const Mesh& mesh, const BoundaryFace& face, const Point& x) {

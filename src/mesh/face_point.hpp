@@ -25,6 +25,13 @@ FacePoint point_of_edge(const Mesh& mesh, const BoundaryFace& face, double t);
 // cell is affine.
 double distortion(const Mesh& mesh, const BoundaryFace& face);
 
+// Contains the normals of a face at its nodes and its centre.
+struct NormalCone {
+    Point axis{};        // the normal at the centre, unit
+    double angle = 0.0;  // the largest to the axis, rad
+};
+NormalCone normal_cone(const Mesh& mesh, const BoundaryFace& face);
+
 // The point of a face nearest to x, found by Gauss-Newton steps on |x(xi) - x|^2: reliable if x is closer to the face
 // than its radius of curvature.
 FacePoint closest_point(const Mesh& mesh, const BoundaryFace& face, const Point& x);

@@ -11,7 +11,7 @@ from many_decks import KINDS, REFUSED, finished, instances, squares
 from support import DELAM, expect, expect_error, finish, folder, start
 
 MOST = 2.2  # of twice as many objects: sorting them takes 2.2 times from 500 on, and less for more
-QUICK = ("instances", "bodies that touch", "continued keyword lines", "materials", "one pair of many bodies", "boundaries")
+QUICK = ("bodies that touch", "continued keyword lines", "one pair of many bodies", "boundaries")
 WHOLE = sys.argv[1:] == ["whole"]
 
 

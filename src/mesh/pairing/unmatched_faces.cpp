@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
@@ -34,6 +35,11 @@ double rounding_of_places(const Mesh& mesh, std::int32_t a, std::int32_t b) {
     return 1e-6 * std::min(shortest_edge(mesh, mesh.body_cells(a)), shortest_edge(mesh, mesh.body_cells(b)));
 }
 
+// Faces are beside each other within 60 degrees: the cosine between one normal and the other's opposite is at least
+// this. Beyond the angle they are not, whatever the rounding.
+constexpr double facing = 0.5;
+constexpr double most_turned = std::numbers::pi / 3.0 + 1e-6;
+
 // Returns the largest extent of a face.
 double longest(const Mesh& mesh, const std::vector<BoundaryFace>& faces) {
     double most = 0.0;
@@ -47,23 +53,36 @@ double longest(const Mesh& mesh, const std::vector<BoundaryFace>& faces) {
 }  // namespace
 
 Ground::Ground(const Mesh& mesh, std::vector<BoundaryFace> faces, double reach, double rim)
-    : mesh_(mesh), faces_(std::move(faces)), reach_(reach), rim_(rim), tree_(boxes()) {}
+    : mesh_(mesh), faces_(std::move(faces)), reach_(reach), rim_(rim), around_(boxes(0.0)), tree_(boxes(reach)) {
+    for (const BoundaryFace& face : faces_) normal_.push_back(normal_cone(mesh, face));
+}
 
+// Most candidates need no projection: their normals, of which the cone tells, are no such ones, or their boxes are
+// farther away than a face that has been found.
 std::optional<Ground::Found> Ground::under(const Point& x, const Point& normal) const {
+    std::vector<std::pair<double, std::size_t>> candidates;  // distance of the box
+    tree_.containing(x, [&](std::int64_t f) {
+        const NormalCone& cone = normal_[index(f)];
+        // Between its nodes a curved face may turn by as much again.
+        const double turned = std::acos(std::clamp(-dot(cone.axis, normal), -1.0, 1.0)) - 2.0 * cone.angle;
+        if (!(turned > most_turned)) candidates.emplace_back(distance(around_[index(f)], x), index(f));
+    });
+    std::sort(candidates.begin(), candidates.end());
     std::optional<Found> best;
     double nearest = std::numeric_limits<double>::infinity();
-    tree_.containing(x, [&](std::int64_t f) {
-        const FacePoint p = closest_point(mesh_, faces_[index(f)], x);
+    for (const auto& [least, f] : candidates) {
+        if (least > nearest) break;
+        const FacePoint p = closest_point(mesh_, faces_[f], x);
         const Point off = x - p.place;
         const double distance = length(off);
         const double along = std::abs(dot(off, p.normal));
         const double lateral = std::sqrt(std::max(0.0, distance * distance - along * along));
-        if (!(distance <= reach_) || dot(p.normal, normal) > -0.5 || lateral > rim_ + 0.5 * along) return;
-        if (std::pair(distance, index(f)) < std::pair(nearest, best ? best->face : index(f) + 1)) {
+        if (!(distance <= reach_) || dot(p.normal, normal) > -facing || lateral > rim_ + 0.5 * along) continue;
+        if (std::pair(distance, f) < std::pair(nearest, best ? best->face : f + 1)) {
             nearest = distance;
-            best = Found{index(f), p};
+            best = Found{f, p};
         }
-    });
+    }
     return best;
 }
 
@@ -75,12 +94,12 @@ std::vector<std::size_t> Ground::meeting(const Box& box) const {
 }
 
 // A quadratic face extends beyond the box of its nodes by less than a quarter of its extent.
-std::vector<Box> Ground::boxes() const {
+std::vector<Box> Ground::boxes(double widened) const {
     std::vector<Box> list;
     for (const BoundaryFace& face : faces_) {
         const Box box = box_of(mesh_, face, 0.0);
         const double bulge = face.middle().empty() ? 0.0 : 0.25 * length(box.high - box.low);
-        list.push_back(box_of(mesh_, face, reach_ + bulge));
+        list.push_back(box_of(mesh_, face, widened + bulge));
     }
     return list;
 }

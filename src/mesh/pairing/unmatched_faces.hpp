@@ -42,9 +42,11 @@ private:
     std::vector<BoundaryFace> faces_;
     double reach_;
     double rim_;
-    BoxTree tree_;
+    std::vector<Box> around_;         // [faces] the face lies in it
+    std::vector<NormalCone> normal_;  // [faces]
+    BoxTree tree_;                    // of around_, widened by reach
 
-    std::vector<Box> boxes() const;
+    std::vector<Box> boxes(double widened) const;
 };
 
 // The nodes to which a node is tied, ascending, with weights that sum to 1.
