@@ -63,7 +63,8 @@ fi
 check "build release" build_release
 built=$( ((failed == 0)) && printf yes || printf no)
 if [[ $built == yes && $quick == yes ]]; then
-    tests build/release -j2 --label-exclude long
+    # One more than there are cores: some tests wait, for times of files or for other processes.
+    tests build/release "-j$(($(nproc) + 1))" --label-exclude long
     sanitized
     quick_report
 fi

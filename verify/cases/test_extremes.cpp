@@ -107,18 +107,18 @@ LOOP_TEST(small_loads_are_proportional, 0, way_count) {
     const std::vector<double> force = exact.field("reaction");
     const double largest = std::abs(
         *std::max_element(force.begin(), force.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
-    for (const double size : {1e-20, 1e-160, 1e-200, 1e-300})
-        for (const bool in_pattern : {false, true}) {
-            const Scene scene = flexure(way, size, in_pattern);
-            Solver solver(scene, 0.0);
-            solver.step(1.0);
-            expect_finite(solver, where(way, size));
-            expect_held(scene, solver, size, where(way, size));
-            const std::vector<double> found = solver.field("reaction");
-            for (std::size_t i = 0; i < force.size(); ++i)
-                cases::expect_near(found[i] / size, force[i] / unit, 1e-6, largest / unit,
-                                   where(way, size) + ": reaction");
-        }
+    bool in_pattern = loop % 2 == 0;  // the load is small, or its factor
+    for (const double size : {1e-20, 1e-160, 1e-200, 1e-300}) {
+        in_pattern = !in_pattern;
+        const Scene scene = flexure(way, size, in_pattern);
+        Solver solver(scene, 0.0);
+        solver.step(1.0);
+        expect_finite(solver, where(way, size));
+        expect_held(scene, solver, size, where(way, size));
+        const std::vector<double> found = solver.field("reaction");
+        for (std::size_t i = 0; i < force.size(); ++i)
+            cases::expect_near(found[i] / size, force[i] / unit, 1e-6, largest / unit, where(way, size) + ": reaction");
+    }
 }
 
 // Energies, about 1e6 J/m2 times the square of the load, overflow at some 1e151 m; that of a pair on the way to its
@@ -126,29 +126,30 @@ LOOP_TEST(small_loads_are_proportional, 0, way_count) {
 LOOP_TEST(large_loads_are_finite_or_refused, 0, way_count) {
     const Way& way = ways[loop];
     const double largest = std::string(way.rule) == "converged" ? 1e149 : 1e150;
-    for (const double size : {1e100, largest, 1e200, 1e300})
-        for (const bool in_pattern : {false, true}) {
-            const Scene scene = flexure(way, size, in_pattern);
-            delam_solver* handle = nullptr;
-            std::int32_t status = delam_solver_create(scene.problem(), 0.0, &handle);
-            const reference::SolverHandle owner(handle);
-            if (status == DELAM_OK) {
-                Solver solver(scene, 0.0);
-                status = solver.advance(1.0);
-                std::int32_t pending = 1;
-                delam_solver_pending(solver.get(), &pending);
-                expect_finite(solver, where(way, size), true);
-                if (status == DELAM_OK) expect_held(scene, solver, size, where(way, size));
-                cases::expect(pending == (status >= 0 ? 1 : 0), where(way, size) + ": a failed step is pending");
-            }
-            const std::string message = delam_context_message(scene.context());
-            if (size <= largest)
-                cases::expect(status == DELAM_OK, where(way, size) + ": " + message);
-            else
-                cases::expect(status == DELAM_ERROR_NUMERICAL && (message.find("not finite") != std::string::npos ||
-                                                                  message.find("largest number") != std::string::npos),
-                              where(way, size) + ": " + delam_status_name(status) + ": " + message);
+    bool in_pattern = loop % 2 == 0;
+    for (const double size : {1e100, largest, 1e200, 1e300}) {
+        in_pattern = !in_pattern;
+        const Scene scene = flexure(way, size, in_pattern);
+        delam_solver* handle = nullptr;
+        std::int32_t status = delam_solver_create(scene.problem(), 0.0, &handle);
+        const reference::SolverHandle owner(handle);
+        if (status == DELAM_OK) {
+            Solver solver(scene, 0.0);
+            status = solver.advance(1.0);
+            std::int32_t pending = 1;
+            delam_solver_pending(solver.get(), &pending);
+            expect_finite(solver, where(way, size), true);
+            if (status == DELAM_OK) expect_held(scene, solver, size, where(way, size));
+            cases::expect(pending == (status >= 0 ? 1 : 0), where(way, size) + ": a failed step is pending");
         }
+        const std::string message = delam_context_message(scene.context());
+        if (size <= largest)
+            cases::expect(status == DELAM_OK, where(way, size) + ": " + message);
+        else
+            cases::expect(status == DELAM_ERROR_NUMERICAL && (message.find("not finite") != std::string::npos ||
+                                                              message.find("largest number") != std::string::npos),
+                          where(way, size) + ": " + delam_status_name(status) + ": " + message);
+    }
 }
 
 // A load that ends in rounding (a sine at pi) after a large one.
