@@ -63,8 +63,8 @@ if(NOT DELAM_SANITIZE)
         add_test(NAME ${test}
           COMMAND sh -c "echo 'skipped: the host in ${language} on MPI is not built: ${DELAM_PETSC_MISSING}'; exit 77")
       endif()
+      delam_slots(${test} ${ranks})
       set_tests_properties(${test} PROPERTIES LABELS "quick;example" TIMEOUT ${DELAM_LIMIT} SKIP_RETURN_CODE 77
-        PROCESSORS ${ranks}
         ENVIRONMENT "DELAM_LIBRARY=$<TARGET_FILE:delam>;PYTHONPATH=${PROJECT_SOURCE_DIR}/bindings/python/src;\
 PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
     endforeach()
