@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "condensed_scenes.hpp"
+#include "controlled_scenes.hpp"
 #include "elastica.hpp"
 #include "rotating_beams.hpp"
 #include "small_analysis.hpp"
@@ -301,6 +302,51 @@ TEST(saved_analysis_goes_on_bit_by_bit) {
     cases::expect(whole.value("dissipated") > 0.0, "the interface is damaged, or nothing was tested");
 }
 
+// A strip whose end has one height, that of a control node.
+Scene strip_with_end(int d, bool controlled) {
+    constexpr double length = 20.0, height = 0.5;
+    Scene scene = cases::make_blocks(d, {{{0.0, 0.0, 0.0}, {length, height, 1.0}, {40, 2, 1}}}, nullptr, 1);
+    scene.begin();
+    scene.elastic(-1, beams::young, 0.0);
+    scene.text("kinematics", "corotational");
+    const auto at = [&](double x) {
+        return cases::nodes_where(scene, 0, [x](const double* p) { return std::abs(p[0] - x) < 1e-6; });
+    };
+    for (int k = 0; k < d; ++k) scene.hold(at(0.0), cases::unit(d, k));
+    if (!controlled) {
+        drive(scene, at(length), cases::unit(d, 1), scene.pattern("load", {0.0, 1.0}, {0.0, 8.0}));
+        return scene;
+    }
+    for (const std::int64_t node : at(length)) scene.equation({node, 0}, cases::components(d, {{1, -2.0}, {1, 2.0}}));
+    for (int k = 0; k < d; ++k)
+        if (k != 1) scene.hold({0}, cases::unit(d, k));
+    return scene;
+}
+
+// It is moved by its own nodes, by the control node, or pushed by the force that this takes.
+LOOP_TEST(control_nodes_move_and_push, 2, 4) {
+    const auto bent = [](const Scene& scene) {
+        Solver solver(scene, 0.0);
+        for (int k = 1; k <= 4; ++k) {
+            solver.step(k / 4.0);
+            solver.commit();
+        }
+        return std::array{solver.value("reaction:load"), solver.value("stored_bulk"), solver.field("displacement")[1],
+                          solver.value("rotation_max")};
+    };
+    const auto own = bent(strip_with_end(loop, false));
+    cases::expect_below(0.3, own[3], "rotation");
+    Scene moved = strip_with_end(loop, true);
+    drive(moved, {0}, cases::unit(loop, 1), moved.pattern("load", {0.0, 1.0}, {0.0, 8.0}));
+    const auto by_control = bent(moved);
+    for (std::size_t i = 0; i < 2; ++i) cases::expect_near(by_control[i], own[i], 1e-5, own[i], "moved");
+    Scene pushed = strip_with_end(loop, true);
+    cases::forces(pushed, pushed.pattern("load", {0.0, 1.0}, {0.0, own[0]}), {0}, cases::unit(loop, 1));
+    const auto by_force = bent(pushed);
+    cases::expect_near(by_force[1], own[1], 1e-5, own[1], "energy of what is pushed");
+    cases::expect_near(by_force[2], 8.0, 1e-5, 8.0, "height of the control node that is pushed");
+}
+
 TEST(what_rotations_do_not_know_is_refused_by_name) {
     const auto refused = [](const char* word, const std::function<void(Scene&)>& change) {
         Scene scene = double_cantilever({10.0, 0.5, 5.0, 10, 2}, 1.0);
@@ -321,4 +367,8 @@ TEST(what_rotations_do_not_know_is_refused_by_name) {
     refused("step_control = load", [](Scene& s) { s.text("step_control", "load"); });
     refused("mixity_rule = variational", [](Scene& s) { s.text("mixity_rule", "variational"); });
     refused("reduction = feti", [](Scene& s) { s.text("reduction", "feti"); });
+    refused("control node",
+            [](Scene& s) { s = cases::make_rigid_end(2, nullptr), s.text("kinematics", "corotational"); });
+    refused("control node",
+            [](Scene& s) { s = cases::make_rigid_end(3, nullptr), s.text("kinematics", "corotational"); });
 }

@@ -209,7 +209,14 @@ def check_large_rotations():
     expect('kinematics = "corotational"' in scene and "from the first step on" in said, said)
     point = "*NODE\n1000, 1., 2.\n*RIGID BODY, REF NODE=1000, PIN NSET=TOP\n"
     scene, said = imported(bar(before=point, after=large.replace("TOP, 2, 2", "1000, 2, 2")))
-    expect("[solver]" not in scene and "because nodes that belong to no body" in said, said)
+    expect("[solver]" not in scene and "because angles of nodes that belong to no body" in said, said)
+    tied = "*NODE\n1000, 1., 2.\n*EQUATION\n2\nTOP, 2, 1., 1000, 2, -1.\n"
+    point = bar(before=tied, after=large.replace("TOP, 2, 2", "1000, 2, 2"))
+    scene, said = imported(point)
+    expect('kinematics = "corotational"' in scene and "[[equations]]" in scene, said)
+    rows, said, _ = history(point)
+    if rows:
+        close("pulled by a node of no body", rows[-1]["reaction"], LENGTH * stress(PULL)[0], 2.0 * PULL)
     warm = "*TEMPERATURE\nALL, 10.\n"
     hot = bar(material=CFRP + "*EXPANSION\n1e-5,\n", after=large.replace("*END", warm + "*END"))
     scene, said = imported(hot)

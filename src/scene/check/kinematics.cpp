@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/check/kinematics.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "scene/carriers.hpp"
 
 namespace delam {
@@ -19,6 +23,33 @@ std::string unknown_option(const Options& options) {
     if (options.reduction == "feti") return "reduction = feti";
     if (options.subdomains > 0) return text("subdomains = ", options.subdomains);
     return {};
+}
+
+// True if the equation holds for every common displacement of its nodes, as that of a mean, of nodes that move together
+// or of places along a straight lever does: it says the same however these turn. That of a rigid body, whose angles are
+// displacements of a control node, and that of a periodic cell do not.
+bool is_affine(const Constraint& constraint, std::int64_t dim) {
+    constexpr double rounding = 1e-9;  // of weights that a host adds up to 1
+    std::vector<double> sum(index(dim), 0.0);
+    for (std::size_t i = 0; i < constraint.dof.size(); ++i)
+        sum[index(constraint.dof[i] % dim)] += constraint.coefficient[i];
+    return max_abs(sum) <= rounding * max_abs(constraint.coefficient);
+}
+
+// Returns a control node of an equation that is not affine; negative: there is none. What a constraint prescribes of a
+// control node alone is left out.
+std::int64_t turning_control(const Problem& problem, const Carriers& carriers) {
+    const std::int64_t dim = problem.mesh->dimension();
+    for (const Constraint& constraint : problem.constraints) {
+        const auto control = std::find_if(constraint.dof.begin(), constraint.dof.end(), [&](std::int64_t dof) {
+            return carriers.kind(dof / dim) == Carriers::Kind::control;
+        });
+        const auto of_it = [&](std::int64_t dof) { return dof / dim == *control / dim; };
+        if (control == constraint.dof.end() || std::all_of(constraint.dof.begin(), constraint.dof.end(), of_it))
+            continue;
+        if (!is_affine(constraint, dim)) return *control / dim;
+    }
+    return -1;
 }
 
 }  // namespace
@@ -38,10 +69,11 @@ std::string unknown_to_rotations(const Problem& problem) {
     for (std::size_t i = 0; i < mesh.interfaces().size(); ++i)
         if (mesh.interfaces()[i].body_a < 0) return text("obstacles, as that of interface ", i, instead);
     const Carriers carriers(problem);
-    if (!carriers.controls().empty())
-        return text("control nodes, as node ", carriers.controls().front(),
-                    ": equations with a control node (periodic cells, levers) would not turn; ",
-                    "prescribe displacements of nodes or means over patches, or use kinematics = linear");
+    if (const std::int64_t node = turning_control(problem, carriers); node >= 0)
+        return text("equations of a control node, as of node ", node,
+                    ", which do not hold for a common displacement of their nodes (rigid couplings, periodic cells): "
+                    "they would not ",
+                    "turn; ", "prescribe displacements of nodes or means over patches, or use kinematics = linear");
     return {};
 }
 

@@ -11,9 +11,9 @@ namespace {
 
 // Returns what of a deck large rotations do not know (src/scene/check/kinematics.cpp); empty: nothing.
 std::string unknown_part(const References& references) {
-    return references.any()
-               ? "nodes that belong to no body, as *COUPLING, *RIGID BODY and *EQUATION use them, do not turn with "
-                 "large rotations: prescribe displacements of nodes instead"
+    return references.stay_linear()
+               ? "angles of nodes that belong to no body, as *COUPLING and *RIGID BODY use them, and periodic "
+                 "equations do not turn with large rotations: prescribe displacements of nodes instead"
                : "";
 }
 

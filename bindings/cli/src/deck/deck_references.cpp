@@ -50,6 +50,18 @@ void extend(std::vector<Row>& basis, const Row& row) {
     basis.push_back(rest);
 }
 
+// True if an equation holds for every common displacement of its nodes.
+bool is_affine(const std::vector<EquationEntry>& terms) {
+    std::map<int, double> sum;  // by degree of freedom
+    double most = 0;
+    for (const EquationEntry& term : terms) {
+        sum[term.dof] += term.coefficient;
+        most = std::max(most, std::abs(term.coefficient));
+    }
+    constexpr double rounding = 1e-9;
+    return std::all_of(sum.begin(), sum.end(), [&](const auto& s) { return std::abs(s.second) <= rounding * most; });
+}
+
 // Orthonormal directions across a basis; axes where these are such.
 std::vector<Row> complement(std::vector<Row> basis, std::size_t dimension) {
     const std::size_t given = basis.size();
@@ -187,6 +199,7 @@ std::size_t References::control_of(std::int64_t node) {
 }
 
 std::size_t References::rotation_of(std::int64_t node) {
+    stay_linear_ = true;
     const auto [at, inserted] = rotations_.emplace(node, controls_.size());
     if (inserted) controls_.push_back({new_name(node, "-rotation"), position(node), {}, {}});
     return at->second;
@@ -439,6 +452,8 @@ void References::equate(const std::vector<EquationEntry>& terms) {
             throw SceneFailure(terms[k].where.place, fmt::format("\"{}\" has {} nodes, and another set of the equation "
                                                                  "has {}",
                                                                  terms[k].where.text, nodes[k].size(), count));
+    const auto of_control = [&](const std::vector<std::int64_t>& own) { return of_no_body(own.front()); };
+    if (std::any_of(nodes.begin(), nodes.end(), of_control) && !is_affine(terms)) stay_linear_ = true;
     if (count > most_equations)
         throw SceneFailure(terms.front().where.place,
                            fmt::format("equations for {} nodes: at most {} are imported; couple the nodes of a rigid "

@@ -32,8 +32,9 @@ public:
     // mesh: of the model, split into pieces. Throws SceneFailure at couplings that cannot be taken.
     References(const Deck& deck, const Model& model, const MeshData& mesh);
 
-    // True if there are control nodes.
-    [[nodiscard]] bool any() const { return !controls_.empty(); }
+    // True if angles of a rigid coupling, or equations that do not hold for a common displacement of their nodes, tie
+    // bodies to control nodes: large rotations do not know them (src/scene/check/kinematics.cpp).
+    [[nodiscard]] bool stay_linear() const { return stay_linear_; }
     // The nodes of an entry if all of them belong to no body; empty: they are nodes of bodies.
     [[nodiscard]] const std::vector<std::int64_t>& of(const Entry& where) const;
     // The bodies that a node belongs to.
@@ -86,6 +87,7 @@ private:
     mutable std::map<std::string, std::vector<std::int64_t>> of_;  // by the text of the entry
     std::map<std::int64_t, std::string> set_of_;                   // by node: the first set that consists of it
     std::vector<Control> controls_;                                // in the order of their first use
+    bool stay_linear_ = false;
     std::map<std::string, int> names_;                             // of controls: the next number to try
     std::size_t coupled_ = 0;                                      // nodes of all couplings
     std::map<std::int64_t, std::size_t> translations_;             // controls by node
