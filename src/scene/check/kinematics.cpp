@@ -29,11 +29,11 @@ std::string unknown_option(const Options& options) {
 // or of places along a straight lever does: it says the same however these turn. That of a rigid body, whose angles are
 // displacements of a control node, and that of a periodic cell do not.
 bool is_affine(const Constraint& constraint, std::int64_t dim) {
-    constexpr double rounding = 1e-9;  // of weights that a host adds up to 1
+    constexpr double weight_digits = 1e-8;  // of weights that a host adds up to 1
     std::vector<double> sum(index(dim), 0.0);
     for (std::size_t i = 0; i < constraint.dof.size(); ++i)
         sum[index(constraint.dof[i] % dim)] += constraint.coefficient[i];
-    return max_abs(sum) <= rounding * max_abs(constraint.coefficient);
+    return max_abs(sum) <= weight_digits * max_abs(constraint.coefficient);
 }
 
 // Returns a control node of an equation that is not affine; negative: there is none. What a constraint prescribes of a

@@ -58,8 +58,9 @@ bool is_affine(const std::vector<EquationEntry>& terms) {
         sum[term.dof] += term.coefficient;
         most = std::max(most, std::abs(term.coefficient));
     }
-    constexpr double rounding = 1e-9;
-    return std::all_of(sum.begin(), sum.end(), [&](const auto& s) { return std::abs(s.second) <= rounding * most; });
+    constexpr double digits_of_a_deck = 1e-8;  // weights of eight digits that add up to those on the other side
+    return std::all_of(sum.begin(), sum.end(),
+                       [&](const auto& s) { return std::abs(s.second) <= digits_of_a_deck * most; });
 }
 
 // Orthonormal directions across a basis; axes where these are such.

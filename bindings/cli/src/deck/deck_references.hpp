@@ -88,11 +88,11 @@ private:
     std::map<std::int64_t, std::string> set_of_;                   // by node: the first set that consists of it
     std::vector<Control> controls_;                                // in the order of their first use
     bool stay_linear_ = false;
-    std::map<std::string, int> names_;                             // of controls: the next number to try
-    std::size_t coupled_ = 0;                                      // nodes of all couplings
-    std::map<std::int64_t, std::size_t> translations_;             // controls by node
-    std::map<std::int64_t, std::size_t> rotations_;                // the same
-    std::map<std::int64_t, std::int64_t> rotation_nodes_;          // reference nodes by their rotation nodes
+    std::map<std::string, int> names_;                     // of controls: the next number to try
+    std::size_t coupled_ = 0;                              // nodes of all couplings
+    std::map<std::int64_t, std::size_t> translations_;     // controls by node
+    std::map<std::int64_t, std::size_t> rotations_;        // the same
+    std::map<std::int64_t, std::int64_t> rotation_nodes_;  // reference nodes by their rotation nodes
     std::string constraints_;
 };
 
