@@ -18,7 +18,7 @@ namespace delam {
 namespace {
 
 // A step leaves at most so many unstable states one after another: bodies that buckle have one or two. (Half and twice
-// of this and of the next two give the same digits of examples/blister and pass verify/cases/test_buckling.)
+// of this and of the next give the same digits of examples/blister and pass verify/cases/test_buckling.)
 constexpr std::int64_t most_modes = 8;
 // Beyond this share of its fall, what the energy falls by more than on a branch from the critical load is the release
 // of a snap-through. (A strut in 15 steps leaves 0.002, a blister in 60, whose root softens, less than nothing.)

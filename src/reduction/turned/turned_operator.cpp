@@ -233,7 +233,12 @@ std::vector<double> TurnedOperator::internal_force(std::span<const double> theta
 }
 
 double TurnedOperator::load_size(std::span<const double> theta, const Response& response) const {
-    double load = max_abs(reaction(theta, response));
+    return load_size(theta, response, internal_force(theta, response));
+}
+
+double TurnedOperator::load_size(std::span<const double> theta, const Response& response,
+                                 std::span<const double> force) const {
+    double load = max_abs(body_reactions(*bodies_, theta, force, no_row_force_));
     const std::vector<std::vector<double>> of_strains = strains_->forces(at(response.multipliers));
     for (const auto* forces : {&bodies_->force(), &of_strains})
         for (std::size_t p = 0; p < theta.size(); ++p)
@@ -243,7 +248,7 @@ double TurnedOperator::load_size(std::span<const double> theta, const Response& 
 
 TurnedOperator::Unbalanced TurnedOperator::unbalanced(std::span<const double> theta, const Response& response) const {
     const std::vector<double> force = internal_force(theta, response);
-    const double load = load_size(theta, response);
+    const double load = load_size(theta, response, force);
     // Forces are differences of places, which have the rounding of the largest; a node adds some ten of them.
     constexpr double terms = 10.0;
     const double farthest = max_abs(problem_.mesh->nodes()) + max_abs(response.multipliers);

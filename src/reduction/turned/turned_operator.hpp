@@ -95,6 +95,8 @@ private:
     TurnedBodies& at(std::span<const double> displacement) const;
     // Returns the forces of the cells in their frames, with those of eigenstrains.
     TurnedBodies::Pulls pulls(std::span<const double> theta, std::span<const double> displacement) const;
+    // The same with the forces of cells and interfaces.
+    double load_size(std::span<const double> theta, const Response& response, std::span<const double> force) const;
     // Returns the forces of cells and interfaces on the nodes.
     std::vector<double> internal_force(std::span<const double> theta, const Response& response) const;
 
