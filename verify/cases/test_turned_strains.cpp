@@ -186,6 +186,77 @@ TEST(heated_strut_buckles_between_walls) {
     }
 }
 
+// A film of two layers above a base from which it is off but for its first cells: it curls up by more than half a turn,
+// through the angle at which its faces and those of the base have no mean frame, as if the base were not there.
+TEST(curled_film) {
+    constexpr double attached = 5.0, length = 30.0, thickness = 0.1, strain = 0.03;
+    constexpr double curvature = 0.75 * strain / thickness;
+    Scene scene =
+        cases::make_blocks(2, {{{0.0, 0.0, 0.0}, {length, 1.0, 0.0}, {30, 1, 1}},
+                               {{0.0, 1.0, 0.0}, {length, 1.0 + thickness, 0.0}, {30, 1, 1}},
+                               {{0.0, 1.0 + thickness, 0.0}, {length, 1.0 + 2.0 * thickness, 0.0}, {30, 1, 1}}});
+    scene.interface(0, 1);
+    scene.interface(1, 2);
+    scene.begin();
+    scene.elastic(-1, beams::young, 0.0);
+    scene.law(0, beams::equal_modes(1e4, 1e6));
+    scene.bonded(1);
+    std::vector<std::int64_t> off;
+    const auto pairs = scene.pairs(0);
+    for (std::size_t p = 0; p < pairs.count(); ++p)
+        if (scene.coordinate(pairs.node_b[p], 0) > attached + 1e-6) off.push_back(static_cast<std::int64_t>(p));
+    scene.adhesion(0, off, std::vector<double>(off.size(), 0.0));
+    scene.text("kinematics", "corotational");
+    heat(scene, 1, {strain, 0.0, 0.0, 0.0, 0.0, 0.0});
+    const auto base = cases::nodes_where(scene, 0, [](const double* x) { return x[1] < 1e-6; });
+    for (int k = 0; k < 2; ++k) scene.hold(base, cases::unit(2, k));
+    const std::int64_t end = cases::nodes_where(scene, 2, [](const double* x) {
+                                 return x[0] > length - 1e-6 && x[1] < 1.0 + 1.5 * thickness;
+                             }).front();
+    Solver solver(scene, 0.0);
+    constexpr int steps = 24;
+    for (int k = 1; k <= steps; ++k) {
+        solver.step(static_cast<double>(k) / steps);
+        solver.commit();
+        const double part = static_cast<double>(k) / steps, bend = curvature * part;
+        const double free = (length - attached) * (1.0 + 0.5 * strain * part), angle = bend * free;
+        const std::vector<double> u = solver.field("displacement");
+        const auto at = static_cast<std::size_t>(2 * end);
+        cases::expect_near(length + u[at], attached + std::sin(angle) / bend, 1.0, 1.0,
+                           "place of the end along the base");
+        cases::expect_near(u[at + 1], (1.0 - std::cos(angle)) / bend, 1.0, 1.0, "height of the end");
+        cases::expect(solver.value("dissipated") == 0.0, "the film holds where it is attached");
+    }
+    cases::expect_below(5.5, curvature * (length - attached), "angle at the end");
+}
+
+// One step that is too long for the iterations is cut, by default and with adaptive steps, and not with fixed ones.
+TEST(steps_that_are_too_long_are_cut) {
+    Strip strip;
+    strip.strain = 0.3;
+    strip.beam = {60.0, 0.5, 0.0, 60, 2};
+
+    const auto run = [&](const char* control, int steps, double& energy) {
+        Scene scene = strip.scene("corotational");
+        scene.text("step_control", control);
+        Solver solver(scene, 0.0);
+        std::int32_t status = DELAM_OK;
+        for (int k = 1; k <= steps && status == DELAM_OK; ++k) {
+            status = solver.advance(static_cast<double>(k) / steps);
+            if (status == DELAM_OK) solver.commit();
+        }
+        energy = solver.value("stored_bulk");
+        return status;
+    };
+    double in_many = 0.0, in_one = 0.0;
+    cases::expect(run("fixed", 24, in_many) == DELAM_OK, "many steps");
+    cases::expect(run("fixed", 1, in_one) != DELAM_OK, "one step of fixed length does not converge");
+    for (const char* control : {"auto", "adaptive"}) {
+        cases::expect(run(control, 1, in_one) == DELAM_OK, std::string("one step, step_control = ") + control);
+        cases::expect_near(in_one, in_many, 1e-5, in_many, "energy in one step and in many");
+    }
+}
+
 // The derivative of the energy with respect to the factor of a strain, and its own derivative, against differences.
 TEST(derivatives_with_respect_to_strains) {
     Strip strip;

@@ -41,6 +41,7 @@ public:
     void set_tangent(std::int32_t body, TurnedCell::Stresses stresses, const Pulls& pulls, SparseMatrix& k) const;
     // Returns the frame of a cell.
     const Matrix3& rotation(std::int64_t cell) const { return cells_[index(cell)].rotation(); }
+    double radius(std::int64_t cell) const { return cells_[index(cell)].radius(); }
     // Returns the largest entry of the cells' stiffnesses, F/L.
     double largest_stiffness() const { return largest_stiffness_; }
     // Adds to the forces [mesh DOFs] those of a couple that turns the frame of a cell.

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -42,6 +43,8 @@ public:
     // Moves the nodes to the displacements [nodes][dimension]. False: the cell is inside out, and the rest is not set.
     bool move(std::span<const double> displacement);
     const Matrix3& rotation() const { return rotation_; }
+    // Returns the root mean square of the distances of its nodes from their middle, without displacements, L.
+    double radius() const { return std::sqrt(size_); }
     std::span<const double> stiffness() const { return stiffness_; }
     double energy() const;
     // Adds the force on the nodes, [nodes][dimension]: that of S d, or that of other forces in the frame.

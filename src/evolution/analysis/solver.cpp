@@ -85,9 +85,10 @@ std::string what_did_not_converge(const State& state, const Options& options) {
                     " active-set steps (contact_limit = ", options.contact_limit, ")", rest);
     if (effort.am_iterations >= options.minimisation_limit)
         return text("the mixity still changes (minimisation_limit = ", options.minimisation_limit, ")", rest);
-    return text(where,
-                ": its linear solves and its contact set did, so that it does not balance the traction that "
-                "mixity_rule = variational adds",
+    return text(where, ": its linear solves and its contact set did",
+                options.mixity_rule == "variational"
+                    ? ", so that it does not balance the traction that mixity_rule = variational adds"
+                    : "",
                 rest);
 }
 
@@ -224,28 +225,39 @@ Outcome Solver::advance(double time) {
     require_in_stage(time);
     const Options& options = problem_.options;
     Chain chain(states_.past(), committed);
-    Stepper::Result result;
+    std::optional<Stepper::Result> whole;
+    std::exception_ptr failure;  // of a step that may be cut
     PendingStep pending;
+    const bool cuts = turns(problem_) && (control_.located > 0.0 || options.step_control == "adaptive");
     if (follows_load(options)) {
         ControlledStep followed = followed_step(stepper_, graph_, committed, time, options);
-        result = std::move(followed.result);
+        whole = std::move(followed.result);
         pending.jumps = std::move(followed.jumps);
         pending.parts = std::move(followed.parts);
+    } else if (keeps_past(options)) {
+        whole = backtracked_step(stepper_, chain, committed.step, time, options);
     } else {
-        result = keeps_past(options) ? backtracked_step(stepper_, chain, committed.step, time, options)
-                                     : stepper_.step(committed, time);
+        try {
+            whole = stepper_.step(committed, time);
+        } catch (const Error& error) {
+            if (!cuts || !too_long(error)) throw;
+            failure = std::current_exception();
+        }
     }
     for (auto& [step, state] : chain.revised()) note_jump(chain.at(step - 1), state, pending.jumps);
     const State& from = chain.at(committed.step);
-    const bool halved = control_.located > 0.0 && may_jump(stepper_.pairs(), graph_, from, result.state);
+    const bool cut = cuts && (!whole || !whole->converged);
+    const bool halved = cut || (control_.located > 0.0 && may_jump(stepper_.pairs(), graph_, from, whole->state));
+    Stepper::Result result;
     if (controls_steps(options) || halved) {
-        ControlledStep controlled =
-            controlled_step(stepper_, graph_, from, std::move(result), options, control_.located);
+        ControlledStep controlled = controlled_step(stepper_, graph_, from, {time, std::move(whole), failure}, options,
+                                                    {control_.located, cuts});
         result = std::move(controlled.result);
         pending.parts = std::move(controlled.parts);
         std::ranges::move(controlled.jumps, std::back_inserter(pending.jumps));
-    } else if (!follows_load(options)) {
-        note_jump(from, result.state, pending.jumps);
+    } else {
+        result = std::move(*whole);
+        if (!follows_load(options)) note_jump(from, result.state, pending.jumps);
     }
     pending.state = std::move(result.state);
     if (whole_) pending.state.growth.way = 2;

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "delam/delam.h"
+
 namespace delam {
 
 namespace {
@@ -32,32 +34,38 @@ struct Goal {
     std::unique_ptr<Stepper::Result> reached;  // null: not computed
     double change = 0.0;
     int smooth = 0;
-    bool sharp = false;  // nearly all of the change in an interval about twice as long
+    bool sharp = false;            // nearly all of the change in an interval about twice as long
+    std::exception_ptr failure{};  // why it was not reached in one part
 };
 
 // One step in parts: the instants yet to be reached lie on a stack, the next one on top.
 class Parts {
 public:
-    Parts(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole, const Options& options,
-          double located)
+    Parts(Stepper& stepper, const PairGraph& graph, const State& before, TriedStep whole, const Options& options,
+          const StepCuts& cuts)
         : stepper_(stepper),
           graph_(graph),
           options_(options),
-          located_(options.jump_tolerance > 0.0 ? options.jump_tolerance : located),
+          located_(options.jump_tolerance > 0.0 ? options.jump_tolerance : cuts.located),
+          cuts_(cuts.cuts),
           step_(before.step + 1),
-          asked_(whole.state.time - before.time),
-          history_(whole.state.history),
+          asked_(whole.time - before.time),
           at_(before) {
-        at_.step = whole.state.step - 1;
-        const double end = whole.state.time;
-        goals_.push_back({end, std::make_unique<Stepper::Result>(std::move(whole)), 0.0, 0});
+        history_.revised_from = step_;
+        goals_.push_back({whole.time, nullptr, 0.0, 0});
+        goals_.back().failure = whole.failure;
+        if (!whole.result) return;
+        history_ = whole.result->state.history;
+        at_.step = whole.result->state.step - 1;
+        goals_.back().reached = std::make_unique<Stepper::Result>(std::move(*whole.result));
         count(*goals_.back().reached);
         goals_.back().change = change_in_pairs(stepper_.pairs(), at_, goals_.back().reached->state);
     }
 
     ControlledStep run() {
         while (!goals_.empty()) {
-            if (!goals_.back().reached && compute())
+            const bool tried = goals_.back().reached || goals_.back().failure;
+            if (!tried && compute())
                 accept_parent();
             else if (!halve())
                 accept_goal();
@@ -70,6 +78,7 @@ private:
     const PairGraph& graph_;
     const Options& options_;
     double located_;  // share of the step to which jumps are located; 0: they are not
+    bool cuts_;
     std::int64_t step_;
     double asked_;  // length of the whole step
     StepHistory history_;
@@ -99,6 +108,7 @@ private:
 // While nothing is damaged the work is exact, however wide the band.
 bool Parts::too_long(const Stepper::Result& result, double change) const {
     const Ledger& l = result.state.ledger;
+    if (cuts_ && converged_ && !result.converged) return true;
     return (options_.step_control == "adaptive" &&
             (!result.converged || (change > 0.0 && l.upper - l.lower > options_.step_tolerance * l.scale()))) ||
            (options_.mixity_step_tolerance > 0.0 && l.mixity_error > options_.mixity_step_tolerance);
@@ -119,7 +129,13 @@ void Parts::count(const Stepper::Result& computed) {
 // already and short enough: then that one is accepted in one part.
 bool Parts::compute() {
     Goal& goal = goals_.back();
-    goal.reached = std::make_unique<Stepper::Result>(stepper_.step(at_, goal.time));
+    try {
+        goal.reached = std::make_unique<Stepper::Result>(stepper_.step(at_, goal.time));
+    } catch (const Error& error) {
+        if (!cuts_ || !delam::too_long(error)) throw;
+        goal.failure = std::current_exception();
+        return false;
+    }
     count(*goal.reached);
     const double longer = goal.change;  // to the same end, from an earlier start
     goal.change = change_in_pairs(stepper_.pairs(), at_, goal.reached->state);
@@ -137,10 +153,15 @@ bool Parts::halve() {
     const Goal& goal = goals_.back();
     const double length = goal.time - at_.time;
     const double smallest = options_.smallest_step * asked_;
-    const bool locate = jumps(goal) && (length > located_ * asked_ || (!goal.sharp && length > smallest));
-    if (!locate && !(too_long(*goal.reached, goal.change) && length > smallest)) return false;
+    if (goal.failure && !(length > smallest)) std::rethrow_exception(goal.failure);
+    const bool locate =
+        !goal.failure && jumps(goal) && (length > located_ * asked_ || (!goal.sharp && length > smallest));
+    if (!goal.failure && !locate && !(too_long(*goal.reached, goal.change) && length > smallest)) return false;
     const double middle = at_.time + 0.5 * length;
-    if (!(middle > at_.time && middle < goal.time)) return false;
+    if (!(middle > at_.time && middle < goal.time)) {
+        if (goal.failure) std::rethrow_exception(goal.failure);
+        return false;
+    }
     goals_.push_back({middle, nullptr, 0.0, 0});
     return true;
 }
@@ -191,8 +212,9 @@ void Parts::accept(Goal goal) {
     outcome_.buckling.add(next.outcome.buckling);
     at_ = std::move(next);
     --at_.step;  // the parts of a step share its number
-    // Goals that were reached from the start of this part are invalid from its end.
+    // Goals that were tried from the start of this part are invalid from its end.
     for (Goal& other : goals_) {
+        if (std::exchange(other.failure, nullptr)) ++refused_;
         if (!other.reached) continue;
         other.reached.reset();
         ++refused_;
@@ -221,9 +243,11 @@ bool may_jump(const PairLaws& pairs, const PairGraph& graph, const State& before
     return jumps(pairs, graph, before, after) || hides_jump(pairs, graph, before, after);
 }
 
-ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole,
-                               const Options& options, double located) {
-    return Parts(stepper, graph, before, std::move(whole), options, located).run();
+bool too_long(const Error& error) { return error.status() == DELAM_LIMIT; }
+
+ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const State& before, TriedStep whole,
+                               const Options& options, const StepCuts& cuts) {
+    return Parts(stepper, graph, before, std::move(whole), options, cuts).run();
 }
 
 }  // namespace delam

@@ -9,8 +9,11 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
+#include <optional>
 #include <vector>
 
+#include "base/error.hpp"
 #include "evolution/step/jump_event.hpp"
 #include "evolution/step/stepper.hpp"
 
@@ -22,11 +25,26 @@ struct ControlledStep {
     std::vector<StepPart> parts;  // that lead to the result
 };
 
+// A step in one part, as it was tried: its result, or why there is none.
+struct TriedStep {
+    double time;
+    std::optional<Stepper::Result> result;
+    std::exception_ptr failure;
+};
+// True if a shorter step of bodies that rotate may not fail so: cells are turned inside out, or no stable state is
+// found.
+bool too_long(const Error& error);
+// located: share of the step to which bisection locates a jump (jump_event.hpp) where no option asks for more; 0: none.
+// cuts: steps that fail so or do not converge are halved, down to the option smallest_step.
+struct StepCuts {
+    double located;
+    bool cuts;
+};
+
 // True if a step holds a jump, or hides one (jump_event.hpp).
 bool may_jump(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after);
-// whole: the step in one part, already computed from `before`. located: share of the step to which bisection locates a
-// jump (jump_event.hpp) where no option asks for more; 0: none.
-ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole,
-                               const Options& options, double located);
+// whole: the step from `before` in one part. Throws its failure, or that of a part, where no shorter one helps.
+ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const State& before, TriedStep whole,
+                               const Options& options, const StepCuts& cuts);
 
 }  // namespace delam

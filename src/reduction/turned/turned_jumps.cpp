@@ -2,6 +2,8 @@
 #include "reduction/turned/turned_jumps.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <map>
 
 #include "base/error.hpp"
@@ -9,6 +11,51 @@
 #include "delam/delam.h"
 
 namespace delam {
+
+namespace {
+
+// The cosine of half the angle between faces at which their pair is open: the angle between a cell and the mean.
+constexpr double away = 0.5;
+// Faces that are turned farther than this, 30 degrees against each other, and lie deeper in each other than a cell is
+// large, have turned by more than half a turn. (Half and twice of this angle leave every digit of examples/peel and of
+// `curled_film` of verify/cases/test_turned_strains.cpp, which curls up by 320 degrees.)
+constexpr double aligned = 0.9659258262890683;
+
+Matrix3 product(const Matrix3& a, const Matrix3& b) {
+    Matrix3 c{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            for (std::size_t k = 0; k < 3; ++k) c[i * 3 + j] += a[i * 3 + k] * b[k * 3 + j];
+    return c;
+}
+
+// Returns the cosine of the angle between two rotations.
+double angle_cosine(const Matrix3& a, const Matrix3& b) {
+    double trace = 0.0;
+    for (std::size_t i = 0; i < 9; ++i) trace += a[i] * b[i];
+    return 0.5 * (trace - 1.0);
+}
+
+// Returns the rotation by the smallest angle that takes a unit vector to the direction of another vector; none where
+// this has no length. Of all half turns one in the plane is taken where there is one.
+Matrix3 shortest_turn(const Vector3& from, const Vector3& to) {
+    const double size = length(to);
+    if (!(size > 0.0)) return {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    Vector3 axis = cross(from, to);
+    const double sine = length(axis) / size, cosine = dot(from, to) / size;
+    if (!(sine > 1e-12)) axis = std::abs(from[2]) < 0.5 ? Vector3{0.0, 0.0, 1.0} : cross(from, Vector3{1.0, 0.0, 0.0});
+    const double long_axis = length(axis);
+    for (double& a : axis) a /= long_axis;
+    Matrix3 turn{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            turn[i * 3 + j] = (i == j ? cosine : 0.0) + (1.0 - cosine) * axis[i] * axis[j];
+    const Matrix3 spin{0.0, -axis[2], axis[1], axis[2], 0.0, -axis[0], -axis[1], axis[0], 0.0};
+    for (std::size_t i = 0; i < 9; ++i) turn[i] += sine * spin[i];
+    return turn;
+}
+
+}  // namespace
 
 TurnedJumps::TurnedJumps(const Problem& problem, const Carriers& carriers)
     : problem_(problem), carriers_(carriers), dimension_(index(problem.mesh->dimension())) {
@@ -31,14 +78,17 @@ TurnedJumps::TurnedJumps(const Problem& problem, const Carriers& carriers)
     }
 }
 
-void TurnedJumps::turn(const TurnedBodies& bodies, const Touching& cells, std::int64_t node, Turn& turn) const {
+void TurnedJumps::turn(const TurnedBodies& bodies, const Touching& cells, const Vector3& normal, Turn& turn) const {
     Matrix3 sum{};
     for (const auto& [c, weight] : cells)
         for (std::size_t i = 0; i < 9; ++i) sum[i] += weight * bodies.rotation(c)[i];
-    if (!polar_decomposition(sum, turn.rotation, turn.stretch))
-        fail(DELAM_LIMIT, "the faces at node ", node,
-             " of an interface are turned against each other by 90 degrees or "
-             "more: their pair has no common frame");
+    const Matrix3& one = bodies.rotation(cells.front().first);
+    if (polar_decomposition(sum, turn.rotation, turn.stretch)) {
+        const double cosine = angle_cosine(one, turn.rotation), depth = -dot(times(turn.rotation, normal), turn.apart);
+        if (cosine > away && (cosine > aligned || depth < bodies.radius(cells.front().first))) return;
+    }
+    turn.rotation = product(shortest_turn(times(one, normal), turn.apart), one);
+    turn.stretch = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
 }
 
 Vector3 TurnedJumps::apart(const InterfaceGeometry& interface, std::size_t p,
@@ -56,8 +106,10 @@ void TurnedJumps::move(const TurnedBodies& bodies, std::span<const double> displ
         const InterfaceGeometry& interface = problem_.mesh->interfaces()[i];
         for (std::size_t p = 0; p < interface.node_a.size(); ++p) {
             Turn& own = turns_[i][p];
-            turn(bodies, touching_[i][p], interface.node_a[p], own);
             own.apart = apart(interface, p, displacement);
+            Vector3 normal{};
+            std::copy_n(&interface.frame[p * dimension_ * dimension_], dimension_, normal.begin());
+            turn(bodies, touching_[i][p], normal, own);
             for (std::size_t r = 0; r < dimension_; ++r) {
                 const std::size_t at = (p * dimension_ + r) * dimension_;
                 Vector3 q{};

@@ -8,6 +8,10 @@
 // Scheider, J. Mech. Phys. Solids 59 (2011) 1647-1668):
 //
 //     M_c = m_c R (tr S I - S)^T J^-1 R^T sum_r t_r q_r x (u_b - u_a),    S = R^T R_c, J = tr U I - U.
+//
+// Faces that are turned against each other by more than 120 degrees have been apart for long and cannot touch, nor do
+// those that would lie deeper in each other than a cell is large: the normal of such a pair is the direction from one
+// place to the other, so that it is open, whatever the angle.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +50,8 @@ private:
         Vector3 apart{};  // u_b - u_a
     };
     using Touching = std::vector<std::pair<std::int64_t, double>>;  // cell, m_c
-    void turn(const TurnedBodies& bodies, const Touching& cells, std::int64_t node, Turn& turn) const;
+    // normal: of the pair, not turned. turn: its places are apart as they are.
+    void turn(const TurnedBodies& bodies, const Touching& cells, const Vector3& normal, Turn& turn) const;
     Vector3 apart(const InterfaceGeometry& interface, std::size_t p, std::span<const double> displacement) const;
     void pull(std::size_t interface, std::span<const double> frames, std::span<const double> row_force, double factor,
               std::span<double> force) const;
