@@ -27,7 +27,7 @@ struct Kind {
     std::int64_t coarse, fine;  // cells along the growth
 };
 
-// What is seen while a front grows: rates of single points, energy per area, both over the toughness.
+// Holds what a growing front shows: rates of single points, energy per area, both over the toughness.
 struct Seen {
     double least = 1e300, most = 0.0, mean_least = 1e300, mean_most = 0.0, per_area = 0.0, pairs = 1e300;
     double error() const { return std::max(most - 1.0, 1.0 - least); }

@@ -57,7 +57,7 @@ struct Strip {
     static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 };
 
-// Where the middle of the right end has moved to, in the axes of the strip.
+// Returns where the middle of the right end has moved to, in the axes of the strip.
 std::array<double, 2> tip(const Strip& strip, const Scene& scene, const Solver& solver) {
     const std::vector<double> u = solver.field("displacement");
     const auto node =

@@ -14,7 +14,9 @@ namespace delam {
 
 namespace {
 
-// The cosine of half the angle between faces at which their pair is open: the angle between a cell and the mean.
+// This is the cosine of half the angle between faces, 120 degrees, beyond which their pair is open. (Half and twice of
+// the angle: examples/peel ends with an energy that differs by 1e-8 and not at all, a film that curls up by 4.5 rad by
+// 4e-10 and not at all, with up to 1.15 times the iterations.)
 constexpr double away = 0.5;
 // Faces that are turned farther than this, 30 degrees against each other, and lie deeper in each other than a cell is
 // large, have turned by more than half a turn. (Half and twice of this angle leave every digit of examples/peel and of
