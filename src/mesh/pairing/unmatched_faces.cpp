@@ -36,7 +36,7 @@ double rounding_of_places(const Mesh& mesh, std::int32_t a, std::int32_t b) {
 }
 
 // Faces are beside each other within 60 degrees: the cosine between one normal and the other's opposite is at least
-// this (Ground::under says so to its callers). Beyond the angle they are not, whatever the rounding.
+// this. Beyond the angle they are not, whatever the rounding.
 constexpr double facing = 0.5;
 constexpr double most_turned = std::numbers::pi / 3.0 + 1e-6;
 

@@ -120,7 +120,7 @@ History::History(const Model& model, const Scene& scene, const delam_solver* sol
     if (cracks && control == "load")
         for (const char* key : of_pops)
             if (knows(key) && !has(key)) add(key, key);
-    // With `auto` a solver has small rotations until it turns, so that the problem tells.
+    // The problem tells, for a solver of `auto` has small rotations until it turns.
     const char* kinematics = delam_problem_option(model.problem.get(), "kinematics");
     if (solver != nullptr && kinematics != nullptr && std::string_view(kinematics) != "linear")
         for (const char* key : of_buckling)
