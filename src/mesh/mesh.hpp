@@ -90,6 +90,13 @@ private:
     friend void turn_frames(Mesh& mesh, std::size_t interface, std::vector<double> frames) {
         mesh.interfaces_[interface].frame = std::move(frames);
     }
+    // Moves these nodes by displacements, [mesh DOFs].
+    friend void move_nodes(Mesh& mesh, std::span<const std::int64_t> nodes, std::span<const double> displacement) {
+        const auto dim = index(mesh.dimension_);
+        for (const std::int64_t node : nodes)
+            for (std::size_t k = 0; k < dim; ++k)
+                mesh.nodes_[index(node) * dim + k] += displacement[index(node) * dim + k];
+    }
     // Moves pairs of an interface into a new one (pairing/interfaces.hpp).
     friend std::int64_t split_interface(Mesh& mesh, std::int64_t interface, std::span<const std::int64_t> pairs);
     // Doubles the nodes of faces within a body (faces.hpp).

@@ -74,16 +74,20 @@ TEST(double_cantilever_grows_like_an_elastica) {
     Linearisations counted;
     scene.require(delam_context_set_progress(scene.context(), Linearisations::count, &counted), "progress");
     Solver solver(scene, 0.0);
-    for (int k = 1; k <= 40; ++k) {
+    // Pairs come apart one by one, so that rounding decides by how much a single force is off.
+    double ratio = 0.0;
+    constexpr int first = 26, last = 40;
+    for (int k = 1; k <= last; ++k) {
         solver.step(k / 40.0);
         solver.commit();
         expect_closed_balance(solver, 1.5e-3, 1e-4);
         cases::expect(solver.value("jumps") == 0.0 && solver.value("released") == 0.0, "steady growth is no jump");
-        if (k < 30 || k % 10 != 0) continue;
+        if (k < first) continue;
         const Arm arm = cases::growing_arm(bending_stiffness(young, 0.5), 0.25, 0.5 * k);
-        cases::expect_near(0.5 * solver.value("reaction:load"), arm.force, 5e-3, arm.force, "force");
+        ratio += 0.5 * solver.value("reaction:load") / arm.force / (last - first + 1);
         cases::expect_near(solver.value("rotation_max"), arm.slope, 1e-2, arm.slope, "slope at the tip");
     }
+    cases::expect_near(ratio, 1.0, 5e-3, 1.0, "force");
     cases::expect_below(static_cast<double>(counted.all) / 41, 4.5, "linearisations a step");
 }
 

@@ -19,7 +19,7 @@
 #include "evolution/step/backtrack.hpp"
 #include "evolution/step/load_path.hpp"
 #include "evolution/step/step_control.hpp"
-#include "evolution/step/turned_steps.hpp"
+#include "evolution/step/turned/turned_steps.hpp"
 #include "scene/advice/scene_warnings.hpp"
 #include "scene/check/kinematics.hpp"
 #include "scene/check/step_control.hpp"

@@ -39,7 +39,7 @@ double rounding_of_jumps(const ContactScene& scene, std::span<const double> jump
 void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> prescribed,
                     std::span<const std::uint8_t> closed, const Response& response, std::span<const double> theta) {
     const auto dim = index(scene.dimension);
-    const double deepest = -rounding_of_jumps(scene, response.jump, theta);
+    const double deepest = -std::max(rounding_of_jumps(scene, response.jump, theta), response.error.jump);
     for (std::size_t p = 0; p < scene.bonded.size(); ++p)
         if (scene.bonded[p] == 0 && (!scene.may_close(p, prescribed) || (!closed.empty() && closed[p] != 0)) &&
             response.jump[p * dim] < deepest)

@@ -2,6 +2,7 @@
 // Unilateral contact of a whole scene: the active set of active_set.hpp over the jump operator.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -59,6 +60,9 @@ struct ContactScene {
     // are free, jumps and forces are only the rounding of these numbers and say nothing about contact. Empty: no
     // eigenstrains.
     std::vector<double> strain_jump{}, strain_force{};
+    // Loose parts of bodies with large rotations lie flat on others but for the rounding of their places, whose size
+    // this is, L; 0: there are none.
+    double place_size = 0.0;
     // [patterns] The largest displacement or gap that is prescribed at factor 1, L.
     std::vector<double> prescribed_most{};
     // Parts that may float; null: none. It outlives the scene.
@@ -71,7 +75,7 @@ struct ContactScene {
     bool may_close(std::size_t pair, std::span<const std::uint8_t> prescribed) const {
         return bonded[pair] == 0 && prescribed[pair * index(dimension)] == 0;
     }
-    double jump_floor(std::span<const double> theta) const { return floor(strain_jump, theta); }
+    double jump_floor(std::span<const double> theta) const { return std::max(place_size, floor(strain_jump, theta)); }
     double prescribed_size(std::span<const double> theta) const { return floor(prescribed_most, theta); }
     double force_floor(std::span<const double> theta) const { return floor(strain_force, theta); }
     // Returns what rounding leaves of forces at these jumps, F. row_of: the row of each jump; empty: all rows.

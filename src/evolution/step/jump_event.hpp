@@ -28,8 +28,12 @@ JumpEvent describe_jump(const PairLaws& pairs, const PairGraph& graph, const Sta
 // True if the state jumps in a step: the step releases energy worth mentioning, or loses load, as a front moves by more
 // than one row of pairs.
 bool jumps(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after);
+// True if a step damages pairs and its work, that of the reactions at both ends, differs much from what it stores,
+// dissipates and releases.
+bool leaves_open(const State& before, const State& after);
 // True if a step may hold a jump of which its energies do not tell: its work is that of the reactions at both ends, and
-// differs much from what it stores, dissipates and releases, as the load falls and a front moves by more than one row.
+// differs much from what it stores, dissipates and releases, or its load falls to less than half, as a front moves by
+// more than one row.
 bool hides_jump(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after);
 
 }  // namespace delam

@@ -74,6 +74,7 @@ ContactScene contact_scene(const Problem& problem, const FreeParts& parts) {
         contact.strain_jump = std::move(sizes.displacement);
         contact.strain_force = std::move(sizes.force);
     }
+    if (problem.renewed && parts.any()) contact.place_size = problem.mesh->size();
     return contact;
 }
 

@@ -108,7 +108,7 @@ private:
 // While nothing is damaged the work is exact, however wide the band.
 bool Parts::too_long(const Stepper::Result& result, double change) const {
     const Ledger& l = result.state.ledger;
-    if (cuts_ && converged_ && !result.converged) return true;
+    if (cuts_ && ((converged_ && !result.converged) || leaves_open(at_, result.state))) return true;
     return (options_.step_control == "adaptive" &&
             (!result.converged || (change > 0.0 && l.upper - l.lower > options_.step_tolerance * l.scale()))) ||
            (options_.mixity_step_tolerance > 0.0 && l.mixity_error > options_.mixity_step_tolerance);

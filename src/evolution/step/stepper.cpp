@@ -62,7 +62,6 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor, Checks checks, const 
     if (problem_.options.kinematics != "linear") {
         // Bodies that rotate have no operator that would hold in all steps (turned_steps.hpp).
         design_ = Design(std::move(design_.choice));
-        contact_.parts = nullptr;
         return;
     }
     operator_ = build_operator(design_, problem_, monitor_);
@@ -110,7 +109,7 @@ Stepper::Result Stepper::initial(double time) {
         state.closed.push_back(state.adhesion[p] == 0.0 && contact_.may_close(p, operator_->prescribed_rows()) ? 1 : 0);
     state.mixity = opening(pairs_);
     const Response none;
-    places_.emplace(*operator_, state.theta, none);
+    places_.emplace(*operator_, state.theta, none, kept_places_);
     result.converged = minimiser().displace(state, *increment(state, state.mixity));
     places_.reset();
     state.mixity = mixities(pairs_, state.response.jump, state.mixity);
@@ -249,7 +248,7 @@ bool Stepper::start(State& next, const State& before, double time) {
 Stepper::Result Stepper::step(const State& before, double time, std::span<const Start> also, double stride) {
     if (other_) return other_->step(before, time, stride);
     stride_ = stride > 0.0 ? stride : problem_.options.path_step;
-    places_.emplace(*operator_, before.theta, before.response);
+    places_.emplace(*operator_, before.theta, before.response, kept_places_);
     State first;
     const bool converged = start(first, before, time);
     const std::unique_ptr<StepRule> step = increment(before, first.mixity);
@@ -469,7 +468,7 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
         if (!(next.adhesion[p] >= 0.0 && next.adhesion[p] <= 1.0))
             fail(DELAM_ERROR_ARGUMENT, "adhesion of pair ", p, " is ", next.adhesion[p], ", allowed: 0 to 1");
     const std::unique_ptr<StepRule> still = increment(before, next.mixity);
-    places_.emplace(*operator_, before.theta, before.response, std::move(displacement));
+    places_.emplace(*operator_, before.theta, before.response, displacement.empty() ? kept_places_ : displacement);
     result.converged = minimiser().displace(next, *still);
     places_.reset();
     next.mixity = still->shown(next.response.jump, std::move(next.mixity));

@@ -77,6 +77,7 @@ public:
     void delegate(std::unique_ptr<JumpOperator> op, std::unique_ptr<const OtherSteps> steps) {
         operator_ = std::move(op);
         other_ = std::move(steps);
+        contact_.row_stiffness = operator_->row_stiffness();
     }
     // d2E / dtheta2 at the state's adhesion and contact set, [patterns][patterns].
     std::vector<double> tangent(const State& state);
@@ -112,6 +113,9 @@ public:
         lift();
         return true;
     }
+    // Tells where the nodes were before the next step, [mesh DOFs]: free parts keep these places, not those that the
+    // response of the state before tells.
+    void keep_places(std::vector<double> displacement) { kept_places_ = std::move(displacement); }
     // Gives the operator the memory that it had at a state.
     void recall(const State& state) { operator_->recall(state.memory); }
     const ReductionChoice& reduction() const { return design_.choice; }
@@ -156,6 +160,7 @@ private:
     PairLaws pairs_;
     std::unique_ptr<const FreeParts> parts_;
     std::optional<PlacesBefore> places_;  // of the state before the present step
+    std::vector<double> kept_places_;     // empty: the state before tells
     ContactScene contact_;
     std::optional<MixityRule> rule_;  // set together with the pairs
     PairGraph graph_;

@@ -66,14 +66,14 @@ TurnedJumps::TurnedJumps(const Problem& problem, const Carriers& carriers)
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
         for (const std::int64_t node : mesh.cell(c)) cells[index(node)].push_back(c);
     for (const InterfaceGeometry& interface : mesh.interfaces()) {
-        std::vector<Touching>& of_interface = touching_.emplace_back();
-        for (std::size_t p = 0; p < interface.node_a.size(); ++p) {
+        std::vector<Touching>& of_interface = touching_.emplace_back(interface.node_a.size());
+        for (std::size_t p = 0; interface.body_a >= 0 && p < interface.node_a.size(); ++p) {
             std::map<std::int64_t, double> weight;
             for (const std::int64_t node : {interface.node_a[p], interface.node_b[p]})
                 for (const auto& [carrier, share] : carriers.of(node))
                     for (const std::int64_t c : cells[index(carrier)])
                         weight[c] += 0.5 * share / static_cast<double>(cells[index(carrier)].size());
-            of_interface.emplace_back(weight.begin(), weight.end());
+            of_interface[p].assign(weight.begin(), weight.end());
         }
         turns_.emplace_back(interface.node_a.size());
         frames_.push_back(interface.frame);
@@ -109,6 +109,7 @@ void TurnedJumps::move(const TurnedBodies& bodies, std::span<const double> displ
         for (std::size_t p = 0; p < interface.node_a.size(); ++p) {
             Turn& own = turns_[i][p];
             own.apart = apart(interface, p, displacement);
+            if (touching_[i][p].empty()) continue;
             Vector3 normal{};
             std::copy_n(&interface.frame[p * dimension_ * dimension_], dimension_, normal.begin());
             turn(bodies, touching_[i][p], normal, own);
@@ -173,6 +174,15 @@ void TurnedJumps::add_pulls(std::span<const double> row_force, std::span<double>
         pull(i, frames_[i], row_force.subspan(first), 1.0, force);
 }
 
+Vector3 TurnedJumps::pull_of(std::size_t interface, std::span<const double> row_force) const {
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < interface; ++i) row += touching_[i].size() * dimension_;
+    Vector3 pull{};
+    for (std::size_t e = 0; e < frames_[interface].size(); ++e)
+        pull[e % dimension_] += row_force[row + e / dimension_] * frames_[interface][e];
+    return pull;
+}
+
 void TurnedJumps::subtract_pulls(const Mesh& mesh, std::span<const double> row_force, std::span<double> force) const {
     std::size_t first = 0;  // row
     for (std::size_t i = 0; i < touching_.size(); first += touching_[i++].size() * dimension_)
@@ -185,7 +195,8 @@ void TurnedJumps::add_couples(const TurnedBodies& bodies, std::span<const double
     for (std::size_t i = 0; i < touching_.size(); ++i) {
         for (std::size_t p = 0; p < touching_[i].size(); ++p, first += dimension_) {
             const std::span<const double> own = row_force.subspan(first, dimension_);
-            if (std::all_of(own.begin(), own.end(), [](double t) { return t == 0.0; })) continue;
+            if (touching_[i][p].empty() || std::all_of(own.begin(), own.end(), [](double t) { return t == 0.0; }))
+                continue;
             const Turn& turned = turns_[i][p];
             Vector3 pull{};
             for (std::size_t r = 0; r < dimension_; ++r)

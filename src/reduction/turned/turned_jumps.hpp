@@ -9,6 +9,8 @@
 //
 //     M_c = m_c R (tr S I - S)^T J^-1 R^T sum_r t_r q_r x (u_b - u_a),    S = R^T R_c, J = tr U I - U.
 //
+// An obstacle is a plane, which moves and does not turn: the frames of its pairs stay, and their cells feel no couple.
+//
 // Faces that are turned against each other by more than 120 degrees have been apart for long and cannot touch, nor do
 // those that would lie deeper in each other than a cell is large: the normal of such a pair is the direction from one
 // place to the other, so that it is open, whatever the angle.
@@ -41,6 +43,8 @@ public:
     // Adds to the forces on the nodes [mesh DOFs] what forces of the rows cause: pulls, or the couples alone.
     void add_pulls(std::span<const double> row_force, std::span<double> force) const;
     void add_couples(const TurnedBodies& bodies, std::span<const double> row_force, std::span<double> force) const;
+    // Returns the sum of the pulls of an interface on its second side.
+    Vector3 pull_of(std::size_t interface, std::span<const double> row_force) const;
     // Takes from the forces the pulls that they cause in the frames of a mesh.
     void subtract_pulls(const Mesh& mesh, std::span<const double> row_force, std::span<double> force) const;
 
@@ -49,7 +53,7 @@ private:
         Matrix3 rotation{}, stretch{};
         Vector3 apart{};  // u_b - u_a
     };
-    using Touching = std::vector<std::pair<std::int64_t, double>>;  // cell, m_c
+    using Touching = std::vector<std::pair<std::int64_t, double>>;  // cell, m_c; empty: of an obstacle
     // normal: of the pair, not turned. turn: its places are apart as they are.
     void turn(const TurnedBodies& bodies, const Touching& cells, const Vector3& normal, Turn& turn) const;
     Vector3 apart(const InterfaceGeometry& interface, std::size_t p, std::span<const double> displacement) const;

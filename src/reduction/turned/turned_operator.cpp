@@ -4,19 +4,26 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
+#include <set>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "body/rigid_modes.hpp"
 #include "delam/delam.h"
 #include "linalg/dense/dense.hpp"
 #include "reduction/operator/body_reactions.hpp"
 #include "reduction/operator/jump_variables.hpp"
+#include "scene/pieces.hpp"
 #include "scene/strain_loads.hpp"
 
 namespace delam {
 
 namespace {
+
+bool is_loose(std::span<const std::uint8_t> loose, std::size_t body) { return !loose.empty() && loose[body] != 0; }
 
 std::vector<BodyModel> models_of(const Problem& problem) {
     std::vector<BodyModel> models;
@@ -57,6 +64,51 @@ TurnedStrains strains_of(const Problem& problem) {
         }
     }
     return {std::move(pulls), std::move(energy)};
+}
+
+// Returns the rigid pieces of a body, with all their motions from where the nodes of a mesh are. Those that share a
+// node count as one: what turns one about the other moves no support and no interface alone.
+std::vector<HostPiece> loose_pieces(const Pieces& pieces, std::int32_t body, const Mesh& mesh) {
+    std::vector<std::size_t> first(pieces.count());  // the piece that it is joined to
+    std::iota(first.begin(), first.end(), 0U);
+    for (const Pieces::Hinge& hinge : pieces.hinges) {
+        const std::size_t a = first[index(hinge.piece_a)], b = first[index(hinge.piece_b)];
+        std::replace(first.begin(), first.end(), std::max(a, b), std::min(a, b));
+    }
+    std::map<std::size_t, std::set<std::int64_t>> nodes;
+    for (std::size_t p = 0; p < pieces.count(); ++p)
+        if (pieces.body[p] == body) nodes[first[p]].insert(pieces.nodes[p].begin(), pieces.nodes[p].end());
+    std::vector<HostPiece> loose;
+    for (const auto& [piece, own] : nodes) {
+        HostPiece& added = loose.emplace_back();
+        added.nodes.assign(own.begin(), own.end());
+        const std::vector<double> modes = rigid_modes(mesh, added.nodes);
+        const std::int64_t rows = static_cast<std::int64_t>(added.nodes.size()) * mesh.dimension();
+        added.free = DenseMatrix(rows, static_cast<std::int64_t>(modes.size()) / rows);
+        std::copy(modes.begin(), modes.end(), added.free.value.begin());
+    }
+    return loose;
+}
+
+// Takes from forces of cells [mesh DOFs], less those of the scene's stiffness at displacements, what they do along the
+// free motions of its pieces, which is their rounding.
+void subtract_rigid(const LinearScene& scene, std::span<const double> displacement, std::span<double> force) {
+    const auto dim = index(scene.mesh->dimension());
+    std::vector<double> beyond;
+    for (std::size_t b = 0; b < scene.stiffness.size(); ++b)
+        for (const HostPiece& piece : scene.stiffness[b]->pieces) {
+            if (piece.fixed()) continue;
+            std::vector<double> own, share(index(piece.free.columns));
+            beyond.assign(force.size(), 0.0);
+            add_product(scene.stiffness[b]->matrix, scene.mesh->body_nodes(static_cast<std::int32_t>(b)), dim,
+                        displacement, beyond);
+            for (const std::int64_t node : piece.nodes)
+                for (std::size_t k = index(node) * dim; k < (index(node) + 1) * dim; ++k)
+                    own.push_back(force[k] - beyond[k]);
+            multiply_transposed(piece.free, own, share);
+            multiply(piece.free, share, own);
+            for (std::size_t i = 0; i < own.size(); ++i) force[index(piece.nodes[i / dim]) * dim + i % dim] -= own[i];
+        }
 }
 
 // Adds these forces to the dead ones, as the last pattern of the scene.
@@ -121,7 +173,7 @@ TurnedBodies::Pulls TurnedOperator::pulls(std::span<const double> theta, std::sp
     return pulls;
 }
 
-LinearScene TurnedOperator::scene() const {
+LinearScene TurnedOperator::scene(const TurnedPoint& point) const {
     LinearScene scene{problem_, std::make_shared<Mesh>(*problem_.mesh), {}};
     Problem& about = scene.problem;
     about.options.kinematics = "linear";
@@ -132,10 +184,14 @@ LinearScene TurnedOperator::scene() const {
     about.patterns.push_back({"linearisation", {0.0}, {1.0}, Pattern::Drives::force});
     for (std::int32_t body = 0; body < scene.mesh->body_count(); ++body) {
         auto given = std::make_shared<HostStiffness>();
-        // Stresses resist rotations, so that no rigid motion is free of energy.
         const std::vector<std::int64_t> nodes = scene.mesh->body_nodes(body);
+        if (!point.loose.empty()) move_nodes(*scene.mesh, nodes, point.displacement);
+        // Stresses resist rotations, so that no rigid motion is free of energy where something holds the body.
         const std::int64_t rows = static_cast<std::int64_t>(nodes.size()) * scene.mesh->dimension();
-        given->pieces.push_back({nodes, DenseMatrix(rows, 0), {}});
+        if (is_loose(point.loose, index(body)))
+            given->pieces = loose_pieces(rigid_pieces(problem_), body, *scene.mesh);
+        else
+            given->pieces.push_back({nodes, DenseMatrix(rows, 0), {}});
         about.stiffness[index(body)] = given;
         scene.stiffness.push_back(std::move(given));
     }
@@ -154,7 +210,9 @@ void TurnedOperator::turn(LinearScene& scene, const TurnedPoint& point) const {
     if (point.from.empty()) pulls = this->pulls(point.theta, point.displacement);
     for (std::size_t i = 0; i < problem_.interfaces.size(); ++i) turn_frames(*scene.mesh, i, jumps_->frames(i));
     for (std::size_t b = 0; b < scene.stiffness.size(); ++b)
-        bodies.set_tangent(static_cast<std::int32_t>(b), point.stresses, pulls, scene.stiffness[b]->matrix);
+        bodies.set_tangent(static_cast<std::int32_t>(b),
+                           is_loose(point.loose, b) ? TurnedCell::Stresses::left_out : point.stresses, pulls,
+                           scene.stiffness[b]->matrix);
 }
 
 void TurnedOperator::load(LinearScene& scene, std::span<const double> displacement,
@@ -162,12 +220,14 @@ void TurnedOperator::load(LinearScene& scene, std::span<const double> displaceme
     const TurnedBodies& bodies = at(displacement);
     const auto dim = index(problem_.mesh->dimension());
     std::vector<double> force = bodies.force();
+    subtract_rigid(scene, displacement, force);
     jumps_->add_couples(bodies, row_force, force);
     jumps_->add_pulls(row_force, force);
     jumps_->subtract_pulls(*scene.mesh, row_force, force);
     for (double& f : force) f = -f;
-    for (const auto& given : scene.stiffness)
-        add_product(given->matrix, given->pieces.front().nodes, dim, displacement, force);
+    for (std::size_t b = 0; b < scene.stiffness.size(); ++b)
+        add_product(scene.stiffness[b]->matrix, scene.mesh->body_nodes(static_cast<std::int32_t>(b)), dim, displacement,
+                    force);
     add_forces(problem_, force, scene);
     const std::vector<std::vector<double>> of_strains = strains_->forces(bodies);
     for (std::size_t p = 0; p < of_strains.size(); ++p)
@@ -182,8 +242,8 @@ void TurnedOperator::load_forces(LinearScene& scene, std::span<const double> for
     scene.problem.jump_offset.assign(index(problem_.jump_count()), 0.0);
 }
 
-std::vector<SparseMatrix> TurnedOperator::softening(std::span<const double> theta,
-                                                    std::span<const double> displacement) const {
+std::vector<SparseMatrix> TurnedOperator::softening(std::span<const double> theta, std::span<const double> displacement,
+                                                    std::span<const std::uint8_t> loose) const {
     const TurnedBodies::Pulls pulls = this->pulls(theta, displacement);
     const TurnedBodies& bodies = at(displacement);
     std::vector<SparseMatrix> soft(index(problem_.mesh->body_count()));
@@ -192,7 +252,8 @@ std::vector<SparseMatrix> TurnedOperator::softening(std::span<const double> thet
         SparseMatrix stressed;
         bodies.set_tangent(body, TurnedCell::Stresses::left_out, pulls, soft[b]);
         bodies.set_tangent(body, TurnedCell::Stresses::count, pulls, stressed);
-        for (std::size_t e = 0; e < soft[b].value.size(); ++e) soft[b].value[e] -= stressed.value[e];
+        for (std::size_t e = 0; e < soft[b].value.size(); ++e)
+            soft[b].value[e] = is_loose(loose, b) ? 0.0 : soft[b].value[e] - stressed.value[e];
     }
     return soft;
 }
@@ -249,11 +310,20 @@ double TurnedOperator::load_size(std::span<const double> theta, const Response& 
 TurnedOperator::Unbalanced TurnedOperator::unbalanced(std::span<const double> theta, const Response& response) const {
     const std::vector<double> force = internal_force(theta, response);
     const double load = load_size(theta, response, force);
-    // Forces are differences of places, which have the rounding of the largest; a node adds some ten of them.
-    constexpr double terms = 10.0;
-    const double farthest = max_abs(problem_.mesh->nodes()) + max_abs(response.multipliers);
     return {delam::equilibrium_defect(*bodies_, theta, force, no_row_force_) / load,
-            terms * std::numeric_limits<double>::epsilon() * turned_->largest_stiffness() * farthest / load};
+            rounding_of_forces(response.multipliers) / load};
+}
+
+Vector3 TurnedOperator::pull_of(std::size_t interface, const Response& response) const {
+    (void)at(response.multipliers);
+    return jumps_->pull_of(interface, response.force);
+}
+
+// Forces are differences of places, which have the rounding of the largest; a node adds some ten of them.
+double TurnedOperator::rounding_of_forces(std::span<const double> displacement) const {
+    constexpr double terms = 10.0;
+    const double farthest = max_abs(problem_.mesh->nodes()) + max_abs(displacement);
+    return terms * std::numeric_limits<double>::epsilon() * turned_->largest_stiffness() * farthest;
 }
 
 void TurnedOperator::solve(const Springs&, std::span<const double>, Response&) {

@@ -3,7 +3,7 @@
 // interfaces at displacements of the nodes, and the scene linearised about them.
 //
 // A response keeps the displacements of all nodes [mesh DOFs] as its own unknowns (Response::multipliers). It is not
-// solved for here: evolution/step/turned_steps.hpp minimises in linearised scenes.
+// solved for here: evolution/step/turned/turned_steps.hpp minimises in linearised scenes.
 #pragma once
 
 #include <memory>
@@ -31,6 +31,9 @@ struct TurnedPoint {
     std::vector<double> displacement, from, along;  // [mesh DOFs]
     TurnedCell::Stresses stresses = TurnedCell::Stresses::count;
     std::vector<double> theta{};  // [patterns] the factors of the eigenstrains
+    // [bodies] 1: nothing holds the body, so that stresses are left out of its stiffness and all rigid motions from its
+    // place are free of energy. Empty: there are none. A state does not remember it, but tells it.
+    std::vector<std::uint8_t> loose{};
     bool operator==(const TurnedPoint&) const = default;
     // Returns it as the numbers that a state remembers, and back. None say that it was linearised at its displacements.
     std::vector<double> numbers() const;
@@ -52,8 +55,9 @@ public:
     const Problem& problem() const { return problem_; }
     std::size_t dofs() const { return index(bodies_->dofs()); }
     // A scene that stays linear: frames of pairs turned, a stiffness given for each body, and a pattern more, whose
-    // factor is always 1, with the forces and the parts of jumps that make up for it. Without numbers yet.
-    LinearScene scene() const;
+    // factor is always 1, with the forces and the parts of jumps that make up for it. Without numbers yet. With loose
+    // bodies its nodes are where the point has them; it knows no other place then.
+    LinearScene scene(const TurnedPoint& point) const;
     // Sets its stiffness and frames to those of a point. Where stresses are left out, it is semi-definite.
     void turn(LinearScene& scene, const TurnedPoint& point) const;
     // Sets its loads, so that at these displacements, which need not be those of turn(), and forces of the rows,
@@ -62,8 +66,9 @@ public:
     // Sets its loads to these forces on the nodes alone, [mesh DOFs], in the additional pattern.
     void load_forces(LinearScene& scene, std::span<const double> force) const;
     // Returns by how much their stresses soften the bodies at displacements, each body over its nodes: the stiffness
-    // without stresses less that with them.
-    std::vector<SparseMatrix> softening(std::span<const double> theta, std::span<const double> displacement) const;
+    // without stresses less that with them. loose: as in a point.
+    std::vector<SparseMatrix> softening(std::span<const double> theta, std::span<const double> displacement,
+                                        std::span<const std::uint8_t> loose) const;
     // Returns the forces of such matrices at displacements, [mesh DOFs].
     std::vector<double> multiply_bodies(std::span<const SparseMatrix> of_bodies,
                                         std::span<const double> displacement) const;
@@ -75,6 +80,10 @@ public:
     void add_strain_energy(std::span<double> tangent) const { strains_->add_energy(tangent); }
     // Returns the largest reaction, dead force or nodal force of eigenstrains, F.
     double load_size(std::span<const double> theta, const Response& response) const;
+    // Returns the force with which an interface pulls at its second side.
+    Vector3 pull_of(std::size_t interface, const Response& response) const;
+    // Returns the rounding of forces on the nodes at displacements, F.
+    double rounding_of_forces(std::span<const double> displacement) const;
     // The largest unbalanced force, and the rounding of such forces, both over the load.
     struct Unbalanced {
         double off, rounding;
@@ -84,7 +93,10 @@ public:
     void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
-    std::vector<double> row_stiffness() const override { return {}; }
+    // Returns the largest stiffness of a cell for every row.
+    std::vector<double> row_stiffness() const override {
+        return std::vector<double>(no_row_force_.size(), turned_->largest_stiffness());
+    }
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
     std::span<const std::uint8_t> prescribed_rows() const override { return prescribed_; }
     const TurnedBodies* turned(const Response& response) const override { return &at(response.multipliers); }

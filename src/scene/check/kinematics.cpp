@@ -2,6 +2,7 @@
 #include "scene/check/kinematics.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -36,6 +37,16 @@ bool is_affine(const Constraint& constraint, std::int64_t dim) {
     return max_abs(sum) <= weight_digits * max_abs(constraint.coefficient);
 }
 
+// True if all normals of an obstacle are alike. On a plane a node may slide as far as it likes.
+bool is_flat(const InterfaceGeometry& face, std::int64_t dimension) {
+    constexpr double digits = 1e-6;  // of unit normals that a host gives
+    const std::size_t dim = index(dimension);
+    for (std::size_t e = 0; e < face.frame.size(); e += dim * dim)
+        for (std::size_t k = 0; k < dim; ++k)
+            if (std::abs(face.frame[e + k] - face.frame[k]) > digits) return false;
+    return true;
+}
+
 // Returns a control node of an equation that is not affine; negative: there is none. What a constraint prescribes of a
 // control node alone is left out.
 std::int64_t turning_control(const Problem& problem, const Carriers& carriers) {
@@ -67,7 +78,9 @@ std::string unknown_to_rotations(const Problem& problem) {
             return text("the stiffness that the host gives, of body ", mesh.body_label(body),
                         ", which says nothing about rotations", instead);
     for (std::size_t i = 0; i < mesh.interfaces().size(); ++i)
-        if (mesh.interfaces()[i].body_a < 0) return text("obstacles, as that of interface ", i, instead);
+        if (const InterfaceGeometry& face = mesh.interfaces()[i]; face.body_a < 0 && !is_flat(face, mesh.dimension()))
+            return text("obstacles that are not flat, as that of interface ", i,
+                        ": give one obstacle for each plane, or use kinematics = linear");
     const Carriers carriers(problem);
     if (const std::int64_t node = turning_control(problem, carriers); node >= 0)
         return text("equations of a control node, as of node ", node,

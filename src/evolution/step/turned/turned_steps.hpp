@@ -23,6 +23,8 @@
 #include "base/monitor.hpp"
 #include "evolution/minimise/energy_fall.hpp"
 #include "evolution/step/stepper.hpp"
+#include "evolution/step/turned/linearised_scene.hpp"
+#include "evolution/step/turned/loose_parts.hpp"
 #include "reduction/turned/buckling_mode.hpp"
 #include "reduction/turned/turned_operator.hpp"
 #include "scene/problem.hpp"
@@ -32,8 +34,8 @@ namespace delam {
 class TurnedSteps final : public Stepper::OtherSteps {
 public:
     // The arguments must outlive it.
-    TurnedSteps(const Problem& problem, Monitor& monitor, const TurnedOperator& op, const PairLaws& pairs);
-    ~TurnedSteps() override;
+    TurnedSteps(const Problem& problem, Monitor& monitor, const TurnedOperator& op, const PairLaws& pairs,
+                const ContactScene& contact);
 
     Stepper::Result initial(double time) const override;
     Stepper::Result step(const State& before, double time, double stride) const override;
@@ -43,8 +45,6 @@ public:
 
 private:
     using Stresses = TurnedCell::Stresses;
-    // The linearised scene and the steps in it.
-    struct Linear;
     // A step in a linear scene from a state of such a scene.
     using Solve = std::function<Stepper::Result(Stepper& stepper, const State& from)>;
     // A state with the change of its reactions with the loads, [patterns][patterns]; empty: the stiffness under the
@@ -62,9 +62,11 @@ private:
         }
     };
     Known know(const State& state) const;
-    static TurnedPoint point_of(const State& state) {
-        return TurnedPoint::of(state.memory, state.response.multipliers, state.theta);
-    }
+    // Return where a state was linearised, and the point at its place under its own stresses.
+    TurnedPoint point_of(const State& state) const;
+    TurnedPoint point_at(const State& state, Stresses stresses = Stresses::count) const;
+    // Returns the stepper of the scene linearised about a point and a state, to derive from.
+    Stepper& without_loads(const TurnedPoint& about, const State& state) const;
     // Returns the tangent of a state at another contact set, in the scene about a point; empty: there is none.
     std::vector<double> tangent_about(const TurnedPoint& about, const State& state, const State& at) const;
     // Says where linear steps begin: displacements and forces of rows, the energy that they shall not exceed, with what
@@ -88,16 +90,9 @@ private:
     double critical_share(const State& before, const BucklingMode& mode, const State& state) const;
     // True if the faces that touch make a state stable, which is then known as such.
     bool held_by_faces(const State& state, Known& known) const;
-    // Returns the stepper of the linearised scene, whose numbers have changed.
-    Stepper& renewed(Renewed what) const;
-    // Returns the linear scene with the stiffness and frames of a point, and with the forces and jumps of
-    // displacements.
-    Stepper& linearise(const TurnedPoint& about, std::span<const double> at, std::span<const double> row_force) const;
     // about: out, where the scene that has given the result was linearised.
-    Stepper::Result solve_about(TurnedPoint& about, std::span<const double> at, std::span<const double> row_force,
+    Stepper::Result solve_about(TurnedPoint& about, const std::vector<double>& at, std::vector<double> row_force,
                                 const State& from, const Solve& solve) const;
-    // True if other loads cost less than another stiffness.
-    bool keeps_stiffness() const;
     [[noreturn]] static void refuse_buckling(double time);
     // Replaces what the linear scene says of a state by what is true at its displacements.
     void make_true(State& state) const;
@@ -109,7 +104,8 @@ private:
     Monitor& monitor_;
     const TurnedOperator& op_;
     const PairLaws& pairs_;
-    mutable std::unique_ptr<Linear> linear_;
+    LooseParts loose_;
+    mutable LinearisedScene linear_;
     mutable std::optional<Known> known_;  // the last state that a step has led to
 };
 

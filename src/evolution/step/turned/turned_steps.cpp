@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evolution/step/turned_steps.hpp"
+#include "evolution/step/turned/turned_steps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,20 +57,19 @@ std::int64_t most_moved(std::span<const double> mode, int dimension) {
     return (most - mode.begin()) / dimension;
 }
 
-// Returns the point of these displacements under their own stresses.
-TurnedPoint point_at(std::span<const double> theta, std::span<const double> displacement,
-                     TurnedCell::Stresses stresses = TurnedCell::Stresses::count) {
-    return {{displacement.begin(), displacement.end()}, {}, {}, stresses, {theta.begin(), theta.end()}};
-}
-TurnedPoint point_at(const State& state, TurnedCell::Stresses stresses = TurnedCell::Stresses::count) {
-    return point_at(state.theta, state.response.multipliers, stresses);
-}
-
 // Returns what a linear step lowers, F L.
 double energy_of(const State& state) { return state.ledger.energy() + state.ledger.dissipated; }
 
 // True if a stiffness that is not definite may be the reason.
 bool unstable(const Error& error) { return error.status() == DELAM_ERROR_NUMERICAL || error.status() == DELAM_LIMIT; }
+
+// Adds loose bodies to those of a point; true if there are more then.
+bool loosens(TurnedPoint& about, const std::vector<std::uint8_t>& loose) {
+    const std::vector<std::uint8_t> before = about.loose;
+    if (about.loose.empty()) about.loose = loose;
+    for (std::size_t b = 0; b < loose.size(); ++b) about.loose[b] = std::max(about.loose[b], loose[b]);
+    return about.loose != before;
+}
 
 // Tells whether the forces balance: within the tolerance, or within rounding once linearisations come no nearer.
 class Balanced {
@@ -91,69 +90,58 @@ private:
 
 }  // namespace
 
-struct TurnedSteps::Linear {
-    explicit Linear(LinearScene scene_) : scene(std::move(scene_)) {}
-    LinearScene scene;
-    std::unique_ptr<Stepper> stepper;
-    TurnedPoint about;                  // its stiffness and frames
-    std::vector<double> at, row_force;  // its loads; empty: not set
-};
+TurnedSteps::TurnedSteps(const Problem& problem, Monitor& monitor, const TurnedOperator& op, const PairLaws& pairs,
+                         const ContactScene& contact)
+    : problem_(problem),
+      monitor_(monitor),
+      op_(op),
+      pairs_(pairs),
+      loose_(problem, op, pairs, contact),
+      linear_(problem, monitor, op) {}
 
-TurnedSteps::TurnedSteps(const Problem& problem, Monitor& monitor, const TurnedOperator& op, const PairLaws& pairs)
-    : problem_(problem), monitor_(monitor), op_(op), pairs_(pairs) {}
-
-TurnedSteps::~TurnedSteps() = default;
-
-Stepper& TurnedSteps::linearise(const TurnedPoint& about, std::span<const double> at,
-                                std::span<const double> row_force) const {
-    if (!linear_) {
-        linear_ = std::make_unique<Linear>(op_.scene());
-        // The first stiffness decides how the operator is cut into pieces, and with it the last digits. It is that of
-        // no displacements, whichever state an analysis that goes on begins with.
-        const std::vector<double> zero(op_.dofs(), 0.0);
-        if (!std::ranges::equal(at, zero)) {
-            const std::vector<double> unloaded(problem_.patterns.size(), 0.0), no_force(row_force.size(), 0.0);
-            (void)linearise(point_at(unloaded, zero, Stresses::left_out), zero, no_force);
-        }
-    }
-    Linear& linear = *linear_;
-    const bool turned = linear.about == about;
-    if (turned && std::ranges::equal(linear.at, at) && std::ranges::equal(linear.row_force, row_force))
-        return *linear.stepper;
-    linear.about = {};
-    if (!turned) op_.turn(linear.scene, about);
-    op_.load(linear.scene, at, row_force);
-    renewed(turned ? Renewed::loads : Renewed::all);
-    linear.about = about;
-    linear.at.assign(at.begin(), at.end());
-    linear.row_force.assign(row_force.begin(), row_force.end());
-    return *linear.stepper;
+TurnedPoint TurnedSteps::point_of(const State& state) const {
+    TurnedPoint point = TurnedPoint::of(state.memory, state.response.multipliers, state.theta);
+    point.loose = loose_.of(state);
+    return point;
 }
 
-Stepper& TurnedSteps::renewed(Renewed what) const {
-    if (!linear_->stepper || !linear_->stepper->renew(what)) {
-        linear_->stepper.reset();
-        linear_->stepper = std::make_unique<Stepper>(linear_->scene.problem, monitor_, Stepper::Checks::made_before);
-    }
-    return *linear_->stepper;
+TurnedPoint TurnedSteps::point_at(const State& state, Stresses stresses) const {
+    return {state.response.multipliers, {}, {}, stresses, state.theta, loose_.of(state)};
 }
 
 // Where stresses make a linear scene unstable, as on the way of a large step, they are left out of its stiffness.
-Stepper::Result TurnedSteps::solve_about(TurnedPoint& about, std::span<const double> at,
-                                         std::span<const double> row_force, const State& from,
-                                         const Solve& solve) const {
-    try {
-        return solve(linearise(about, at, row_force), from);
-    } catch (const Error& error) {
-        if (about.stresses == Stresses::left_out || !unstable(error)) throw;
+// Bodies that come off in a step have held on to others before, and the forces there go.
+Stepper::Result TurnedSteps::solve_about(TurnedPoint& about, const std::vector<double>& at,
+                                         std::vector<double> row_force, const State& from, const Solve& solve) const {
+    while (true) {
+        std::vector<std::uint8_t> loose;
+        try {
+            Stepper& stepper = linear_.about(about, at, row_force);
+            Stepper::Result next = solve(stepper, from);
+            loose = loose_.translating(next.state);
+            if (!loosens(about, loose)) return next;
+        } catch (const Error& error) {
+            if (!unstable(error)) throw;
+            if (about.stresses == Stresses::count) {
+                about = {at, {}, {}, Stresses::left_out, about.theta, about.loose};
+                continue;
+            }
+            loose = loose_.all();
+            if (!loosens(about, loose)) throw;
+        }
+        row_force = loose_.without(loose, row_force);
     }
-    about = point_at(about.theta, at, Stresses::left_out);
-    return solve(linearise(about, at, row_force), from);
+}
+
+// A derivative knows nothing of the forces at which the scene is linearised. Those of rounding would push loose bodies.
+Stepper& TurnedSteps::without_loads(const TurnedPoint& about, const State& state) const {
+    Stepper& stepper = linear_.about(about, state.response.multipliers, state.response.force);
+    return about.loose.empty() ? stepper : linear_.under(std::vector<double>(op_.dofs(), 0.0));
 }
 
 std::vector<double> TurnedSteps::tangent_about(const TurnedPoint& about, const State& state, const State& at) const {
     try {
-        return of_patterns(linearise(about, state.response.multipliers, state.response.force).tangent(at));
+        return of_patterns(without_loads(about, state).tangent(at));
     } catch (const Error& error) {
         if (!unstable(error)) throw;
         return {};
@@ -195,7 +183,7 @@ TurnedSteps::Known TurnedSteps::know(const State& state) const {
 }
 
 void TurnedSteps::make_true(State& state) const {
-    std::vector<double> displacement = linear_->stepper->op().displacement(state.theta, state.response);
+    std::vector<double> displacement = linear_.stepper().op().displacement(state.theta, state.response);
     const std::size_t patterns = problem_.patterns.size();
     state.theta.resize(patterns);
     state.response.conjugate.resize(patterns);
@@ -218,7 +206,8 @@ TurnedSteps::Begin TurnedSteps::begin(const State& before) const {
     from.displacement.resize(op_.dofs(), 0.0);
     from.row_force.resize(index(problem_.jump_count()), 0.0);
     const std::vector<double> unloaded(problem_.patterns.size(), 0.0);
-    from.about = first ? point_at(unloaded, from.displacement) : point_of(before);
+    from.about = first ? TurnedPoint{from.displacement, {}, {}, Stresses::count, unloaded} : point_of(before);
+    if (!first) from.row_force = loose_.pressing(from.about.loose, before);
     return from;
 }
 
@@ -231,7 +220,7 @@ TurnedSteps::Begin TurnedSteps::begin_at(const EnergyFall& fall, const State& st
     const double level = fall.penetrates ? none : fall.energy + state.ledger.dissipated;
     return {fall.displacement,
             state.response.force,
-            point_at(state.theta, fall.displacement, Stresses::left_out),
+            {fall.displacement, {}, {}, Stresses::left_out, state.theta, loose_.of(state)},
             false,
             level,
             op_.unbalanced(at.theta, at.response).off,
@@ -245,6 +234,7 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
     std::vector<double> at = std::move(from.displacement), row_force = std::move(from.row_force);
     TurnedPoint about = std::move(from.about);
     bool own = from.own;  // linearised in this step
+    linear_.keep_places(before.response.multipliers);
     Effort effort;
     State start = extended(before, problem_.patterns.size()), lowest;
     Balanced at_rest(limits.turned_balance, limits.minimise_most_idle);
@@ -266,6 +256,8 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
         const bool falls_on = from.falls && energy < level - noise;
         const bool balanced = at_rest(off, rounding) && (definite || (std::exchange(rested, true) && !falls_on));
         next.state.outcome.turned_off = balanced ? 0.0 : off;
+        if (!about.loose.empty() && next.state.outcome.damage_change <= problem_.options.damage_tolerance)
+            next.converged = next.converged || loose_.rightly_touches(next.state);
         // The next step begins with this stiffness, unless that of the result differs.
         const bool near = own && definite && off < limits.turned_kept * off_before && about.theta == next.state.theta;
         next.state.memory = (near ? about : point_at(next.state)).numbers();
@@ -278,10 +270,12 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
             lowest = next.state;
         }
         const bool rises = energy > level + noise && (off > off_before || from.falls);
-        const bool kept = own && !rises && definite && off < limits.turned_kept * off_before && keeps_stiffness();
+        std::vector<std::uint8_t> loose = loose_.of(next.state);
+        const bool kept = own && !rises && definite && off < limits.turned_kept * off_before &&
+                          linear_.keeps_stiffness() && loose == about.loose;
         const std::vector<double> origin = at;
         std::vector<double>& image = next.state.response.multipliers;
-        row_force = next.state.response.force;
+        row_force = loose_.pressing(loose, next.state);
         // On its way from a state that is not stable, a step goes as far along a move as the energy falls: linear
         // steps without stresses are short, those whose stiffness is nearly singular long.
         if (from.falls && (rises || !definite)) {
@@ -297,18 +291,16 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
             off_before = off;
         }
         if (kept) continue;
-        about = {at, origin, std::move(about.displacement), Stresses::count, next.state.theta};
+        about = {at, origin, std::move(about.displacement), Stresses::count, next.state.theta, std::move(loose)};
         own = true;
     }
 }
-
-bool TurnedSteps::keeps_stiffness() const { return linear_->stepper->op().traits().renewable; }
 
 // Factors are compared at the stresses of both states, with the energy of the mode that they soften taken as equal:
 // along a way on which stresses grow in proportion, this is exact.
 double TurnedSteps::critical_share(const State& before, const BucklingMode& mode, const State& state) const {
     const auto softened = [&](const State& of) {
-        const std::vector<SparseMatrix> soft = op_.softening(of.theta, of.response.multipliers);
+        const std::vector<SparseMatrix> soft = op_.softening(of.theta, of.response.multipliers, loose_.of(of));
         return dot(op_.multiply_bodies(soft, mode.displacement), mode.displacement);
     };
     const double share_before = softened(before) / softened(state);  // of the factor
@@ -318,15 +310,14 @@ double TurnedSteps::critical_share(const State& before, const BucklingMode& mode
 
 BucklingMode TurnedSteps::mode_of(const State& state, std::span<const std::uint8_t> held) const {
     const std::vector<double>& place = state.response.multipliers;
-    Linear& linear = (linearise(point_at(state, Stresses::left_out), place, state.response.force), *linear_);
-    linear.at.clear();
-    const std::vector<SparseMatrix> soft = op_.softening(state.theta, place);
-    const Springs springs{spring_stiffness(pairs_, state.adhesion), held_rows(linear.stepper->contact(), held)};
+    const TurnedPoint about = point_at(state, Stresses::left_out);
+    const Stepper& unstressed = linear_.about(about, place, state.response.force);
+    const std::vector<SparseMatrix> soft = op_.softening(state.theta, place, about.loose);
+    const Springs springs{spring_stiffness(pairs_, state.adhesion), held_rows(unstressed.contact(), held)};
     std::vector<double> theta(problem_.patterns.size() + 1, 0.0);
     theta.back() = 1.0;
     const auto solve = [&](std::span<const double> force) {
-        op_.load_forces(linear.scene, force);
-        JumpOperator& op = renewed(Renewed::loads).op();
+        JumpOperator& op = linear_.under(force).op();
         op.recall({});
         Response response;
         op.solve(springs, theta, response);
@@ -342,7 +333,7 @@ bool TurnedSteps::held_by_faces(const State& state, Known& known) const {
     State at = extended(state, problem_.patterns.size());
     at.theta.back() = 1.0;
     const std::vector<std::uint8_t> touching =
-        touching_pairs(linear_->stepper->contact(), op_, scene_size(*problem_.mesh), state.response.jump);
+        touching_pairs(linear_.stepper().contact(), op_, scene_size(*problem_.mesh), state.response.jump);
     for (std::size_t p = 0; p < at.closed.size(); ++p)
         if (touching[p] != 0) at.closed[p] = 1;
     const TurnedPoint about = point_at(state);
@@ -406,6 +397,7 @@ Stepper::Result TurnedSteps::initial(double time) const {
     Stepper::Result result = iterate(
         {}, begin({}), [&](Stepper& stepper, const State&) { return stepper.initial(time); }, definite);
     if (result.converged && !definite) refuse_buckling(time);
+    result.state.free_since = loose_.since(result.state, {});
     return result;
 }
 
@@ -426,8 +418,9 @@ Stepper::Result TurnedSteps::step(const State& before, double time, double strid
     State& next = result.state;
     next.memory = known.about.numbers();
     const double lower_change = half_square(known.tangent, d);
-    const std::unique_ptr<StepRule> rule = linear_->stepper->increment(before, before.mixity);
+    const std::unique_ptr<StepRule> rule = linear_.stepper().increment(before, before.mixity);
     next.step = before.step + 1;
+    next.free_since = loose_.since(next, before);
     next.history.revised_from = next.step;
     next.mixity_before = before.mixity;
     Ledger& ledger = next.ledger;
@@ -456,6 +449,7 @@ Stepper::Result TurnedSteps::equilibrate(const State& before, double time, std::
         before, begin(before), [&](Stepper& stepper, const State&) { return stepper.equilibrate(own, time, adhesion); },
         definite);
     if (result.converged && !definite) refuse_buckling(time);
+    result.state.free_since = loose_.since(result.state, before);
     // The cumulative columns count from the state that is set.
     Ledger& ledger = result.state.ledger;
     ledger.initial = before.ledger.initial + ledger.energy() - before.ledger.energy();
@@ -473,22 +467,21 @@ std::vector<double> TurnedSteps::of_patterns(std::span<const double> matrix) con
 }
 
 std::vector<double> TurnedSteps::tangent(const State& state) const {
-    Stepper& about = linearise(point_at(state), state.response.multipliers, state.response.force);
     State own = extended(state, problem_.patterns.size());
     own.theta.back() = 1.0;
-    return of_patterns(about.tangent(own));
+    return of_patterns(without_loads(point_at(state), state).tangent(own));
 }
 
 std::vector<double> TurnedSteps::step_tangent(const State& before, const State& state) const {
-    Stepper& about = linearise(point_at(state), state.response.multipliers, state.response.force);
     State own = extended(state, problem_.patterns.size());
     own.theta.back() = 1.0;
-    return of_patterns(about.step_tangent(extended(before, problem_.patterns.size()), own));
+    return of_patterns(
+        without_loads(point_at(state), state).step_tangent(extended(before, problem_.patterns.size()), own));
 }
 
 void delegate_to_turned_steps(Stepper& stepper, const Problem& problem, Monitor& monitor) {
     auto op = std::make_unique<TurnedOperator>(problem, [&monitor] { monitor.progress("assemble", 0, 0); });
-    auto steps = std::make_unique<const TurnedSteps>(problem, monitor, *op, stepper.pairs());
+    auto steps = std::make_unique<const TurnedSteps>(problem, monitor, *op, stepper.pairs(), stepper.contact());
     stepper.delegate(std::move(op), std::move(steps));
 }
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scene that stays linear about given places of bodies with large rotations, and the stepper of its load steps.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "evolution/step/stepper.hpp"
+#include "reduction/turned/turned_operator.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+class LinearisedScene {
+public:
+    // The arguments must outlive it.
+    LinearisedScene(const Problem& problem, Monitor& monitor, const TurnedOperator& op)
+        : problem_(problem), monitor_(monitor), op_(op) {}
+
+    // Returns the stepper of the scene with the stiffness and frames of a point, and with the forces and jumps of
+    // displacements `at` [mesh DOFs] and forces of the rows [rows].
+    Stepper& about(const TurnedPoint& point, std::span<const double> at, std::span<const double> row_force);
+    // From now on free parts keep these places of the nodes, [mesh DOFs].
+    void keep_places(std::vector<double> displacement) { places_ = std::move(displacement); }
+    // Returns the stepper of the same stiffness and frames with these forces alone, [mesh DOFs].
+    Stepper& under(std::span<const double> force);
+    // Returns the stepper of the scene as it is; there must be one.
+    Stepper& stepper() const { return *linear_->stepper; }
+    // True if other loads cost less than another stiffness.
+    bool keeps_stiffness() const { return linear_->stepper->op().traits().renewable; }
+
+private:
+    struct Linear {
+        LinearScene scene;
+        bool loose;  // it has parts that nothing holds
+        std::unique_ptr<Stepper> stepper;
+        TurnedPoint about;                  // its stiffness and frames
+        std::vector<double> at, row_force;  // its loads; empty: not set
+    };
+    void begin(const TurnedPoint& point, std::span<const double> at, std::size_t rows);
+    Stepper& renewed(Renewed what);
+
+    const Problem& problem_;
+    Monitor& monitor_;
+    const TurnedOperator& op_;
+    std::unique_ptr<Linear> linear_;
+    std::vector<double> places_;
+};
+
+}  // namespace delam
