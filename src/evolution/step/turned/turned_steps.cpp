@@ -177,9 +177,9 @@ TurnedSteps::Known TurnedSteps::know(const State& state) const {
 }
 
 [[noreturn]] void TurnedSteps::refuse_buckling(double time) {
-    fail(DELAM_LIMIT, "time ", time,
-         ": the bodies are in balance, but buckle: their stiffness under their stresses is ",
-         "not positive definite, and no stable state has been found from there");
+    fail(DELAM_LIMIT, "the bodies are in balance at time ", time,
+         ", but buckle: their stiffness under their stresses is not positive definite, and no stable state has been ",
+         "found from there");
 }
 
 void TurnedSteps::make_true(State& state) const {
@@ -322,7 +322,7 @@ BucklingMode TurnedSteps::mode_of(const State& state, std::span<const std::uint8
         Response response;
         op.solve(springs, theta, response);
         if (!response.balanced || !response.converged)
-            fail(DELAM_LIMIT, "time ", state.time, ": the mode in which the bodies buckle has not been found");
+            fail(DELAM_LIMIT, "the bodies buckle at time ", state.time, ", and their mode has not been found");
         return op.displacement(theta, response);
     };
     return buckling_mode(op_.dofs(), solve, [&](std::span<const double> v) { return op_.multiply_bodies(soft, v); });

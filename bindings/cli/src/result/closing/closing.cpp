@@ -7,6 +7,19 @@
 
 namespace cli {
 
+namespace {
+
+// True if bisection locates each jump of a step, so that what falls without a jump falls steadily.
+bool locates_jumps(const Model& model) {
+    const auto is = [&](const char* key, std::string_view value) {
+        const char* given = delam_problem_option(model.problem.get(), key);
+        return given != nullptr && given == value;
+    };
+    return is("kinematics", "corotational") && is("step_control", "auto");
+}
+
+}  // namespace
+
 Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene, std::string_view history,
                    const BulkFacts& bulk, bool of_end) {
     const Rows rows = rows_of(history);
@@ -17,6 +30,7 @@ Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene,
     out.search = search_limits_of(rows, option_number(solver, "search_tolerance"));
     out.load_drops = load_drops_of(rows, out.jumps, scene);
     out.follows_load = option_text(solver, "step_control") == "load";
+    out.locates_jumps = locates_jumps(model);
     out.small = small_rotations_of(model, solver, scene, of_end);
     out.estimate_tolerance = option_number(solver, "backtracking_tolerance");
     out.estimate_violated = violated_steps(rows, out.estimate_tolerance);
@@ -41,8 +55,8 @@ std::vector<std::string> closing_lines(const Closing& closing, const Scene& scen
     out.push_back(estimate_line(closing.estimate_violated, closing.estimate_tolerance));
     out.push_back(inconclusive_line(closing.estimate_inconclusive));
     out.push_back(mixity_error_line(closing.mixity_error, scene, work));
-    // Along the load, growth and jumps are told apart: what falls without a jump falls steadily.
-    if (!closing.follows_load) out.push_back(load_drops_line(closing.load_drops));
+    // Along the load, growth and jumps are told apart, too.
+    if (!closing.follows_load && !closing.locates_jumps) out.push_back(load_drops_line(closing.load_drops));
     for (std::string& line : search_lines(closing.search, scene, work)) out.push_back(std::move(line));
     for (std::string& line : free_body_lines(closing.free_bodies, scene)) out.push_back(std::move(line));
     out.push_back(unresolved_line(closing.front_unresolved));

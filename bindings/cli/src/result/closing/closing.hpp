@@ -25,7 +25,8 @@ namespace cli {
 struct Closing {
     std::vector<Jump> jumps;
     Balance balance;
-    bool follows_load = false;  // within each step
+    bool follows_load = false;   // within each step
+    bool locates_jumps = false;  // rotations are large, and steps that may hold a jump are halved
     SmallRotations small;
     MixityError mixity_error;
     SearchLimits search;
