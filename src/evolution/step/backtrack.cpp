@@ -66,7 +66,8 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
 }
 
 bool keeps_past(const Options& options) {
-    return options.backtracking == "on" || (options.backtracking == "auto" && options.solution == "energetic");
+    return options.backtracking == "on" ||
+           (options.backtracking == "auto" && options.solution == "energetic" && options.kinematics == "linear");
 }
 
 }  // namespace delam

@@ -115,18 +115,18 @@ bool far(const PairLaws& pairs, const PairGraph& graph, const State& before, con
     return advance > 0.0 && advance > regular_advance(pairs, graph, before, after, interface);
 }
 
+bool loses_load(const State& before, const State& after) {
+    return std::abs(load(after)) < (1.0 - load_drop) * std::abs(load(before));
+}
+
+}  // namespace
+
 bool moves_far(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
     const std::vector<double> advance = advances(pairs, graph, before, after);
     for (std::size_t i = 0; i < advance.size(); ++i)
         if (far(pairs, graph, before, after, static_cast<std::int64_t>(i), advance[i])) return true;
     return false;
 }
-
-bool loses_load(const State& before, const State& after) {
-    return std::abs(load(after)) < (1.0 - load_drop) * std::abs(load(before));
-}
-
-}  // namespace
 
 bool jumps(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
     const auto worth = [&](double released) { return released > released_share * after.ledger.scale(); };

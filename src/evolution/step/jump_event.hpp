@@ -25,6 +25,8 @@ struct JumpEvent {
 
 // Describes the jump between two states.
 JumpEvent describe_jump(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after);
+// True if a front is farther on in the second state by more than one row of pairs.
+bool moves_far(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after);
 // True if the state jumps in a step: the step releases energy worth mentioning, or loses load, as a front moves by more
 // than one row of pairs.
 bool jumps(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after);

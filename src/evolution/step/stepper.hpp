@@ -110,6 +110,7 @@ public:
     // Takes what has changed in the problem (Problem::renewed). False: it cannot, and must be made anew.
     bool renew(Renewed what) {
         if (!operator_->renew(what)) return false;
+        search_.reset();
         lift();
         return true;
     }

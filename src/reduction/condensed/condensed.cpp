@@ -27,9 +27,9 @@ bool Condensed::renew(Renewed what) {
     tree_.reset();
     tree_offered_ = false;
     solved_ = {};
-    choice_.clear();
     choice_.expect_changes({});
     if (!bulk_->renew(what, monitor_)) return false;
+    choice_.renew();
     elimination_.emplace(bulk_->elimination());
     return true;
 }
@@ -126,7 +126,10 @@ void Condensed::condense_dense(std::span<const std::uint8_t> active) {
     for (const std::int64_t r : zone_rows) {
         const JumpRow& row = bulk_->rows()[index(r)];
         JumpRow local{{}, row.offset};
-        for (const auto& [i, n] : row.unknowns) local.unknowns.emplace_back(place[index(i)], n);
+        for (const auto& [i, n] : row.unknowns) {
+            if (place[index(i)] < 0) fail(DELAM_ERROR_INTERNAL, "an unknown of row ", r, " is not in its zone");
+            local.unknowns.emplace_back(place[index(i)], n);
+        }
         rows.push_back(std::move(local));
     }
     ZoneMotions floating = ZoneMotions::of(bulk_->rigid(), bulk_->dead_work(), active, zone_unknowns);

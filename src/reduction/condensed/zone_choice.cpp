@@ -19,9 +19,9 @@ std::size_t count(const std::vector<std::uint8_t>& set) {
 
 }  // namespace
 
-ZoneChoice::ZoneChoice(const Bulk& bulk, const Problem& problem)
-    : bulk_(bulk), limits_(problem.options.limits), always_(bulk.equations().bound()) {
-    const std::size_t unknowns = index(bulk.unknowns());
+void ZoneChoice::find_always() {
+    const Bulk& bulk = bulk_;
+    always_ = bulk.equations().bound();
     for (std::size_t r = 0; r < bulk.rows().size(); ++r) {
         const JumpRow& row = bulk.rows()[r];
         const bool own = row.unknowns.size() == 1 &&
@@ -36,7 +36,11 @@ ZoneChoice::ZoneChoice(const Bulk& bulk, const Problem& problem)
         for (std::int64_t c = 0; c < rigid.columns; ++c) across(c, i) = rigid(i, c);
     const PivotedColumns pivots = pivoted_columns(std::move(across), 1e-10);
     for (std::int64_t k = 0; k < pivots.rank; ++k) always_[index(pivots.order[index(k)])] = 1;
+}
 
+ZoneChoice::ZoneChoice(const Bulk& bulk, const Problem& problem) : bulk_(bulk), limits_(problem.options.limits) {
+    find_always();
+    const std::size_t unknowns = index(bulk.unknowns());
     // Unknowns are neighbours if their pairs share a face of the interface, or if they belong to one pair.
     const std::int64_t dim = problem.mesh->dimension();
     std::vector<std::int64_t> unknown_of(bulk.rows().size(), -1);

@@ -41,6 +41,11 @@ public:
     void choose(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight);
     // Returns to where no choice has been made.
     void clear();
+    // Takes what has changed in the bulk: rows whose frames turn may share unknowns that they had for themselves.
+    void renew() {
+        find_always();
+        clear();
+    }
 
     // A saved state has these numbers. require() and recall() throw Error(DELAM_ERROR_SNAPSHOT) if they contradict
     // themselves or this operator.
@@ -55,6 +60,7 @@ private:
         std::vector<double> spring, last;
     };
     Saved parse(std::span<const double> memory) const;
+    void find_always();
     double spring_of(const Springs& springs, std::size_t unknown) const;
     std::vector<std::uint8_t> grown(std::vector<std::uint8_t> set, std::size_t size) const;
     bool floats_unless_held(std::span<const std::uint8_t> unknowns, std::span<const double> springs) const;

@@ -177,6 +177,7 @@ LinearScene TurnedOperator::scene(const TurnedPoint& point) const {
     LinearScene scene{problem_, std::make_shared<Mesh>(*problem_.mesh), {}};
     Problem& about = scene.problem;
     about.options.kinematics = "linear";
+    about.options.solution = "local";  // evolution/step/turned/lower_states.hpp
     about.renewed = true;
     about.mesh = scene.mesh;
     for (Pattern& pattern : about.patterns)  // strains are forces on nodes there

@@ -17,7 +17,6 @@ namespace {
 
 // Returns the setting that large rotations do not know; empty: there is none.
 std::string unknown_option(const Options& options) {
-    if (options.solution != "local") return "solution = " + options.solution;
     if (options.backtracking == "on") return "backtracking = on";
     if (options.step_control == "load") return "step_control = load";
     if (options.mixity_rule == "variational") return "mixity_rule = variational";
@@ -69,7 +68,7 @@ std::string unknown_to_rotations(const Problem& problem) {
     const Mesh& mesh = *problem.mesh;
     if (const std::string option = unknown_option(problem.options); !option.empty())
         return option +
-               ", only local solutions at the ends of steps (solution = local, step_control = fixed, adaptive "
+               ", only solutions at the ends of steps (step_control = fixed, adaptive "
                "or auto, mixity_rule = converged or frozen, reduction = auto, condensed or iterated)";
     const std::string instead = ": use kinematics = linear";
     if (problem.engine != nullptr) return "bodies that an engine of the host solves" + instead;

@@ -5,6 +5,17 @@
 
 namespace delam {
 
+State extended(const State& state, std::size_t patterns) {
+    State own = state;
+    own.theta.resize(patterns + 1, 0.0);
+    own.response.conjugate.resize(patterns + 1, 0.0);
+    own.response.multipliers.clear();
+    own.memory.clear();
+    own.search_memory.clear();
+    own.search_energies.clear();
+    return own;
+}
+
 // The first stiffness decides how the operator is cut into pieces, and with it the last digits. It is that of no
 // displacements, whichever state an analysis that goes on begins with. Loose parts move about where they are: their
 // scene is a new one with every stiffness.

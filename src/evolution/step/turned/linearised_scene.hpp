@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,10 @@
 #include "scene/problem.hpp"
 
 namespace delam {
+
+// Returns a state as one of a linearised scene, whose additional pattern has had no factor so far: its loads are never in
+// proportion to those before.
+State extended(const State& state, std::size_t patterns);
 
 class LinearisedScene {
 public:
@@ -27,6 +32,14 @@ public:
     void keep_places(std::vector<double> displacement) { places_ = std::move(displacement); }
     // Returns the stepper of the same stiffness and frames with these forces alone, [mesh DOFs].
     Stepper& under(std::span<const double> force);
+    // Lets the steps that `take` takes search for states of lower energy.
+    template <class Take>
+    Stepper::Result searching(const Take& take) {
+        std::string& solution = linear_->scene.problem.options.solution;
+        solution = "energetic";
+        const auto ends = std::unique_ptr<std::string, void (*)(std::string*)>(&solution, [](std::string* s) { *s = "local"; });
+        return take();
+    }
     // Returns the stepper of the scene as it is; there must be one.
     Stepper& stepper() const { return *linear_->stepper; }
     // True if other loads cost less than another stiffness.

@@ -11,6 +11,8 @@
 #include "delam/delam.h"
 #include "evolution/contact/contact.hpp"
 #include "evolution/increment/step_account.hpp"
+#include "evolution/step/jump_event.hpp"
+#include "evolution/step/turned/balanced.hpp"
 #include "linalg/dense/dense.hpp"
 
 namespace delam {
@@ -23,19 +25,6 @@ constexpr std::int64_t most_modes = 8;
 // Beyond this share of its fall, what the energy falls by more than on a branch from the critical load is the release
 // of a snap-through. (A strut in 15 steps leaves 0.002, a blister in 60, whose root softens, less than nothing.)
 constexpr double snaps = 0.1;
-
-// The state as one of a linearised scene, whose additional pattern has had no factor so far: its loads are never in
-// proportion to those before.
-State extended(const State& state, std::size_t patterns) {
-    State own = state;
-    own.theta.resize(patterns + 1, 0.0);
-    own.response.conjugate.resize(patterns + 1, 0.0);
-    own.response.multipliers.clear();
-    own.memory.clear();
-    own.search_memory.clear();
-    own.search_energies.clear();
-    return own;
-}
 
 // 1/2 d^T matrix d; 0 without a matrix.
 double half_square(std::span<const double> matrix, std::span<const double> d) {
@@ -71,23 +60,6 @@ bool loosens(TurnedPoint& about, const std::vector<std::uint8_t>& loose) {
     return about.loose != before;
 }
 
-// Tells whether the forces balance: within the tolerance, or within rounding once linearisations come no nearer.
-class Balanced {
-public:
-    Balanced(double tolerance, std::int64_t most_idle) : tolerance_(tolerance), most_idle_(most_idle) {}
-    bool operator()(double off, double rounding) {
-        idle_ = off < 0.5 * least_ ? 0 : idle_ + 1;
-        least_ = std::min(least_, off);
-        return off <= tolerance_ || (idle_ >= most_idle_ && off <= rounding);
-    }
-
-private:
-    double tolerance_;
-    std::int64_t most_idle_;
-    double least_ = std::numeric_limits<double>::infinity();
-    std::int64_t idle_ = 0;
-};
-
 }  // namespace
 
 TurnedSteps::TurnedSteps(const Problem& problem, Monitor& monitor, const TurnedOperator& op, const PairLaws& pairs,
@@ -96,6 +68,7 @@ TurnedSteps::TurnedSteps(const Problem& problem, Monitor& monitor, const TurnedO
       monitor_(monitor),
       op_(op),
       pairs_(pairs),
+      graph_(problem.mesh->interfaces()),
       loose_(problem, op, pairs, contact),
       linear_(problem, monitor, op) {}
 
@@ -401,6 +374,36 @@ Stepper::Result TurnedSteps::initial(double time) const {
     return result;
 }
 
+Stepper::Result TurnedSteps::lowest_state(const State& before, double time, double stride,
+                                          Stepper::Result best) const {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const auto at_rest = [&](const State& state) -> Begin {
+        return {state.response.multipliers, state.response.force, point_at(state), true, none, none};
+    };
+    const LowerStates states{
+        [&](const State& balance) {
+            const Begin from = at_rest(balance);
+            const State start = extended(before, problem_.patterns.size());
+            const Stepper::Start own(balance, false);
+            Stepper& stepper = linear_.about(from.about, from.displacement, from.row_force);
+            return linear_.searching([&] { return stepper.step(start, time, {&own, 1}, stride); });
+        },
+        [&](const State& balance, const Stepper::Start& start) {
+            const Solve solve = [&](Stepper& stepper, const State& from) {
+                return stepper.step(from, time, {&start, 1}, stride);
+            };
+            bool definite = false;
+            return iterate(before, at_rest(balance), solve, definite);
+        }};
+    const Options& options = problem_.options;
+    const State local = best.state;
+    Stepper::Result lowest =
+        states.lowest(std::move(best), options.limits.minimise_energy_rounding, options.damage_tolerance);
+    if (moves_far(pairs_, graph_, local, lowest.state))
+        lowest.state.jump_within = jump_to_lower(pairs_, local, lowest.state);
+    return lowest;
+}
+
 // The work of the reactions by the trapezoidal rule. The estimate follows from the true energy: with R = dE/dtheta and
 // its change C at fixed adhesion, E(theta_k, .) - E(theta_k-1, .) is R_k d - 1/2 d C_k d at the adhesion after the step
 // and R_k-1 d + 1/2 d C_k-1 d at the one before, to third order in d.
@@ -412,6 +415,7 @@ Stepper::Result TurnedSteps::step(const State& before, double time, double strid
     const Solve solve = [&](Stepper& stepper, const State& from) { return stepper.step(from, time, {}, stride); };
     bool definite = false;
     Stepper::Result result = iterate(before, begin(before), solve, definite);
+    if (problem_.options.solution == "energetic") result = lowest_state(before, time, stride, std::move(result));
     known = know(result.state);
     double work = 0.5 * (dot(d, before.response.conjugate) + dot(d, result.state.response.conjugate));
     if (result.converged && !known.stable()) work = leave_unstable(before, solve, result, known);

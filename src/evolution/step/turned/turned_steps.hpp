@@ -25,6 +25,7 @@
 #include "evolution/step/stepper.hpp"
 #include "evolution/step/turned/linearised_scene.hpp"
 #include "evolution/step/turned/loose_parts.hpp"
+#include "evolution/step/turned/lower_states.hpp"
 #include "reduction/turned/buckling_mode.hpp"
 #include "reduction/turned/turned_operator.hpp"
 #include "scene/problem.hpp"
@@ -85,6 +86,8 @@ private:
     // Leads a result that is in balance, but not stable, to a stable one. known: in, out; of the result. Returns the
     // work of the reactions on the way, F L.
     double leave_unstable(const State& before, const Solve& solve, Stepper::Result& result, Known& known) const;
+    // Returns the lowest state of a step that a search finds, from its balance.
+    Stepper::Result lowest_state(const State& before, double time, double stride, Stepper::Result best) const;
     BucklingMode mode_of(const State& state, std::span<const std::uint8_t> held) const;
     // The share of a step, from a stable state to one that buckles along this mode, at which the bodies begin to.
     double critical_share(const State& before, const BucklingMode& mode, const State& state) const;
@@ -104,6 +107,7 @@ private:
     Monitor& monitor_;
     const TurnedOperator& op_;
     const PairLaws& pairs_;
+    PairGraph graph_;
     LooseParts loose_;
     mutable LinearisedScene linear_;
     mutable std::optional<Known> known_;  // the last state that a step has led to
