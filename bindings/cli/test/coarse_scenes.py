@@ -275,6 +275,38 @@ def blisters(name, run):
     expect(grown[0] < 1.5e-3 and grown[1] > 5e-3, f"{name}: grown by {grown} m about the strain of growth")
 
 
+def turns_and_fails(name, run):
+    """A lap joint: softened at both edges, it fails at once under twice the load of small rotations; then both sheets are free."""
+    h = run.history
+    jump = int(np.flatnonzero(h["jumps"])[0])
+    peak = h["reaction"][jump - 1]
+    expect(h["jumps"].sum() == 1 and abs(peak / 406 - 1) < 0.02, f"{name}: a load of {peak:.4g} before it fails")
+    expect(np.abs(h["reaction"][jump:]).max() < 1e-6 * peak and h["stored_bulk"][-1] < 1e-9 * h["work"][-1],
+           f"{name}: no force and no energy in free sheets")
+    with run.fields() as file:
+        shown = [step for step in sorted(file["steps"]) if file["steps"][step].attrs["step"] < jump][-1]
+        zeta = file["steps"][shown]["interface_0"]["zeta"][()]
+        x = file["interfaces/interface_0/points"][:, 0]
+    order = np.argsort(x)
+    expect(zeta[order][[0, -1]].max() < 0.2 and zeta[order][len(x) // 2] > 0.99, f"{name}: soft at both edges, whole between them")
+    expect(np.abs(zeta[order] - zeta[order[::-1]]).max() < 1e-2, f"{name}: both edges are alike")
+
+
+def buckles_in_space(name, run):
+    """A round sheet: flat up to the strain at which a clamped plate buckles, and growth on both axes only far beyond it."""
+    h, length = run.history, 0.024
+    steps = np.flatnonzero(h["buckling_modes"])
+    critical = h["buckling_time"][steps[0]] * h["load"][-1] / h["time"][-1] / length
+    expect(len(steps) == 1 and abs(critical / 9.339e-4 - 1) < 0.02, f"{name}: buckles in steps {steps} at {critical:.4g}")
+    strain, area = h["load"] / length, h["crack_area"]
+    off = np.abs(h["stored_bulk"] + h["stored_interface"] + h["dissipated"] + np.cumsum(h["released"]) - h["work"]).max()
+    expect(off < 1e-3 * h["work"].max(), f"{name}: the balance is open by {off:.3g}")
+    expect(h["debonded_length"][strain < 2e-3].max() == 0 and area[-1] > 1.1 * area[0],
+           f"{name}: the delamination grows from {area[0]:.4g} to {area[-1]:.4g}")
+    front = front_of(run)
+    expect(front[0, 0] > 0.0165 and front[-1, 1] > 0.0165, f"{name}: the front is at x = {front[0, 0]:.4g}, y = {front[-1, 1]:.4g}")
+
+
 def shortened(length, divisions):
     """A cantilever clamped closer to the crack, which never comes near the clamp: cells as small as those of the whole one."""
     return [f"geometry.length={length}", f"geometry.divisions={divisions}", f"supports[0].box.lower=[{length}, 0.0]",
@@ -295,6 +327,7 @@ COARSE = {
                          elastica([(0.02, 988.58, 5e-3), (0.025, 895.58, 5e-3), (0.03, 828.20, 5e-3)])]),
     "peel": (["time.end=0.667", "time.steps=40"], [grows, elastica([(0.005, 582.69, 1e-2), (0.01, 511.68, 1e-2)])]),
     "blister": ([], [blisters]),
+    "lap-joint": ([], [turns_and_fails]),
     "dcb-abaqus": ([], [grows, softens, mirrored, pays_its_toughness]),
     "dcb-double": (["geometry.divisions=120"], [grows, softens, both_open]),
     "dcb-3d": (["geometry.divisions=[40, 6]", "time.steps=28"], [grows, softens, mirrored, ahead_in_the_middle]),
@@ -308,6 +341,7 @@ COARSE = {
                       [from_the_free_edge]),
     "laminate-enf": (["geometry.divisions=[97, 3]", "time.steps=20"], [grows]),
     "laminate-dcb": (["geometry.divisions=[97, 3]", "time.steps=20"], [grows, softens, mirrored]),
+    "buckling-laminate": ([], [buckles_in_space]),
     "laminate-8": (["geometry.divisions=[10, 6]", "time.steps=20"], [peels_when_pulled]),
     "weave": (["mesh.h=0.6e-3", 'mesh.cell="tet4"', "time.steps=5"], [yarns_come_off]),
 }

@@ -20,7 +20,8 @@ PICTURES = {"fibre": ["stress-strain.png"], "laminate-thermal": ["stresses.png"]
             "weave": ["stress-strain.png", "fronts.png", "cut.png"]}
 WHOLE = sys.argv[1:] == ["whole"]
 # These take a second or two each; the others are checked. test_plot draws fronts.
-SHORT = {"dcb-3d", "dcb-abaqus", "dcb-elastica", "peel", "blister", "enf-3d", "mmb", "fibre", "laminate-thermal"}
+SHORT = {"dcb-3d", "dcb-abaqus", "dcb-elastica", "peel", "blister", "lap-joint", "enf-3d", "mmb", "fibre",
+         "laminate-thermal"}
 SHORT_PICTURES = {"fibre"}
 SHORT_MESH = {"weave": ["mesh.h=0.9e-3", "mesh.gap=0.1e-3"]}
 

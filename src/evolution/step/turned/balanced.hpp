@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tells when linear steps about the last places have led to forces that balance.
 #pragma once
 
 #include <algorithm>

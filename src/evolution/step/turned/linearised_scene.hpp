@@ -15,8 +15,8 @@
 
 namespace delam {
 
-// Returns a state as one of a linearised scene, whose additional pattern has had no factor so far: its loads are never in
-// proportion to those before.
+// Returns a state as one of a linearised scene, whose additional pattern has had no factor so far: its loads are never
+// in proportion to those before.
 State extended(const State& state, std::size_t patterns);
 
 class LinearisedScene {
@@ -37,7 +37,8 @@ public:
     Stepper::Result searching(const Take& take) {
         std::string& solution = linear_->scene.problem.options.solution;
         solution = "energetic";
-        const auto ends = std::unique_ptr<std::string, void (*)(std::string*)>(&solution, [](std::string* s) { *s = "local"; });
+        const auto ends =
+            std::unique_ptr<std::string, void (*)(std::string*)>(&solution, [](std::string* s) { *s = "local"; });
         return take();
     }
     // Returns the stepper of the scene as it is; there must be one.

@@ -12,7 +12,8 @@ namespace delam {
 
 namespace {
 
-// A step finds at most so many lower states one after another: it has two or three, each of which has a front farther on.
+// A step finds at most so many lower states one after another: it has two or three, each of which has a front farther
+// on.
 constexpr std::int64_t most_rounds = 8;
 
 double height_of(const State& state) { return state.ledger.energy() + state.ledger.dissipated; }
@@ -27,7 +28,7 @@ double change(const State& a, const State& b) {
 
 Stepper::Result LowerStates::lowest(Stepper::Result best, double least, double damage_tolerance) const {
     for (std::int64_t round = 0; best.converged && round < most_rounds; ++round) {
-        const Stepper::Result found = look(best.state);
+        const Stepper::Result found = search(best.state);
         best.state.effort.add(found.state.effort);
         best.searched += found.searched;
         // What is left out was compared in a linearised scene, whose energies bound no true ones.

@@ -12,7 +12,7 @@ namespace delam {
 
 struct LowerStates {
     // Returns the lowest state that a search finds in the scene linearised about a balance.
-    std::function<Stepper::Result(const State& balance)> look;
+    std::function<Stepper::Result(const State& balance)> search;
     // Returns the balance to which linear steps lead that may also begin at `start`, from the places of a balance.
     std::function<Stepper::Result(const State& balance, const Stepper::Start& start)> settle;
 
@@ -21,8 +21,8 @@ struct LowerStates {
     Stepper::Result lowest(Stepper::Result best, double least, double damage_tolerance) const;
 };
 
-// Returns the jump within a step from its local balance to a lower state, at the end of the step: bisection finds the load
-// at which the one is as high as the other.
+// Returns the jump within a step from its local balance to a lower state, at the end of the step: bisection finds the
+// load at which the one is as high as the other.
 JumpWithin jump_to_lower(const PairLaws& pairs, const State& local, const State& lower);
 
 }  // namespace delam

@@ -374,27 +374,25 @@ Stepper::Result TurnedSteps::initial(double time) const {
     return result;
 }
 
-Stepper::Result TurnedSteps::lowest_state(const State& before, double time, double stride,
-                                          Stepper::Result best) const {
+Stepper::Result TurnedSteps::lowest_state(const State& before, double time, double stride, Stepper::Result best) const {
     constexpr double none = std::numeric_limits<double>::infinity();
     const auto at_rest = [&](const State& state) -> Begin {
         return {state.response.multipliers, state.response.force, point_at(state), true, none, none};
     };
-    const LowerStates states{
-        [&](const State& balance) {
-            const Begin from = at_rest(balance);
-            const State start = extended(before, problem_.patterns.size());
-            const Stepper::Start own(balance, false);
-            Stepper& stepper = linear_.about(from.about, from.displacement, from.row_force);
-            return linear_.searching([&] { return stepper.step(start, time, {&own, 1}, stride); });
-        },
-        [&](const State& balance, const Stepper::Start& start) {
-            const Solve solve = [&](Stepper& stepper, const State& from) {
-                return stepper.step(from, time, {&start, 1}, stride);
-            };
-            bool definite = false;
-            return iterate(before, at_rest(balance), solve, definite);
-        }};
+    const LowerStates states{[&](const State& balance) {
+                                 const Begin from = at_rest(balance);
+                                 const State start = extended(before, problem_.patterns.size());
+                                 const Stepper::Start own(balance, false);
+                                 Stepper& stepper = linear_.about(from.about, from.displacement, from.row_force);
+                                 return linear_.searching([&] { return stepper.step(start, time, {&own, 1}, stride); });
+                             },
+                             [&](const State& balance, const Stepper::Start& start) {
+                                 const Solve solve = [&](Stepper& stepper, const State& from) {
+                                     return stepper.step(from, time, {&start, 1}, stride);
+                                 };
+                                 bool definite = false;
+                                 return iterate(before, at_rest(balance), solve, definite);
+                             }};
     const Options& options = problem_.options;
     const State local = best.state;
     Stepper::Result lowest =
