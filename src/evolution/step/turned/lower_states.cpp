@@ -31,7 +31,7 @@ Stepper::Result LowerStates::lowest(Stepper::Result best, double least, double d
         const Stepper::Result found = search(best.state);
         best.state.effort.add(found.state.effort);
         best.searched += found.searched;
-        // What is left out was compared in a linearised scene, whose energies bound no true ones.
+        // States that are left out were compared in a linearised scene, whose energies bound no true ones.
         best.state.outcome.search_gap = std::numeric_limits<double>::infinity();
         if (!(change(found.state, best.state) > damage_tolerance)) break;
         Stepper::Result lower = settle(best.state, Stepper::Start(found.state, false));
