@@ -67,7 +67,7 @@ private:
     }
 };
 
-// What both solvers are asked: the same solids, supports and movements.
+// Asks both solvers the same: solids, supports and movements.
 struct Both {
     Scene scene;
     TotalLagrangian solids;

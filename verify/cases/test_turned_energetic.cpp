@@ -70,7 +70,7 @@ TEST(front_of_a_flexure_specimen) {
     expect_lowest(beams::flexure({100.0, 1.0, 30.0, 50, 1}, brittle, 11.0, "corotational"), 11, 8, 10.0, "flexure");
 }
 
-// What is saved before and after the front has jumped goes on alike, bit by bit, in the plane and in space.
+// Analyses that are saved before and after the front has jumped go on alike, bit by bit, in the plane and in space.
 LOOP_TEST(saved_before_and_after_a_jump, 2, 4) {
     Beam beam{100.0, 1.0, 30.0, 20, 1};
     beam.dimension = loop;

@@ -92,7 +92,7 @@ LOOP_TEST(film_comes_off_and_stays, 0, 3) {
     for (std::size_t p = 0; p < jump.size(); p += dim) cases::expect_below(-1e-9, jump[p], "no penetration");
 }
 
-// What is saved after the film has come off goes on alike, bit by bit.
+// An analysis that is saved after the film has come off goes on alike, bit by bit.
 LOOP_TEST(film_that_is_off_is_saved, 0, 3) {
     const Kind& kind = kinds[static_cast<std::size_t>(loop)];
     const Scene scene = Film(kind).scene("corotational", kind.reduction);

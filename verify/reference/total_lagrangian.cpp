@@ -31,8 +31,8 @@ double shape(const std::vector<int>& place, const std::vector<double>& at) {
     return corner ? product * (sum - static_cast<double>(place.size()) + 1.0) : product;
 }
 
-// Its slopes by complex steps would need complex arithmetic; the function is quadratic along each axis at most, so that
-// central differences are exact but for rounding.
+// Returns its slope along an axis. The function is quadratic along each axis at most, so that central differences are
+// exact but for rounding.
 double slope(const std::vector<int>& place, std::vector<double> at, std::size_t axis) {
     const double x = at[axis];
     at[axis] = x + 0.5;
@@ -118,7 +118,8 @@ void TotalLagrangian::prescribe(std::int64_t node, int component, double value) 
     prescribed_[master * dim_ + static_cast<std::size_t>(component)] = value;
 }
 
-// With F = I + grad u, E = (F^T F - I)/2 and S = lambda tr E I + 2 mu E: energy S : E / 2, forces F S grad N.
+// Adds the energy S : E / 2 and the forces F S grad N, where F = I + grad u, E = (F^T F - I)/2 and S = lambda tr E I +
+// 2 mu E, and the tangent of the forces.
 void TotalLagrangian::add_cell(std::size_t cell, System& system) const {
     const std::vector<std::int64_t>& nodes = cells_[cell];
     const std::size_t n = nodes.size();
