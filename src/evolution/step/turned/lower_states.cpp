@@ -13,7 +13,8 @@ namespace delam {
 namespace {
 
 // A step finds at most so many lower states one after another: it has two or three, each of which has a front farther
-// on.
+// on. (`delam run examples/enf-brittle-energetic/enf-brittle-energetic.toml --set solver.kinematics=corotational`: half
+// and twice leave every digit of history.csv.)
 constexpr std::int64_t most_rounds = 8;
 
 double height_of(const State& state) { return state.ledger.energy() + state.ledger.dissipated; }
