@@ -13,8 +13,8 @@ namespace delam {
 namespace {
 
 // A motion that moves a row by less than this part of its largest jump does not move it: normals of turned faces are
-// known to about 1e-9. (Measured by verify/bench/constants.py on 250 random scenes: from 1e-12 to 1e-8 all decide
-// alike; from 1e-8 to 1e-6 verify/cases/test_turned_loose.cpp passes, at 1e-10 plates in space move far.)
+// known to about 1e-9. (Measured by verify/bench/constants.py on 250 random scenes: from 1e-12 to 1e-8 all do alike.
+// A heated film in space that comes off with large rotations runs to its end from 1e-8 to 1e-6, and stops at 1e-10.)
 constexpr double not_moved = 1e-8;
 // Limits a pull, in roundings of a force, that may be rounding: such a row opens in any case, and holds no part until
 // then. (Seed 722 of verify/cases/contact/random_scenes.py pulls by 10; half and twice decide alike on 300 scenes.)
