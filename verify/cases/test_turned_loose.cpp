@@ -66,7 +66,7 @@ void advance(Solver& solver, double time) {
 }
 
 // A film that is heated comes off, whole, and stays where it is as it is cooled and heated again.
-LOOP_TEST(film_comes_off_and_stays, 0, 2) {
+LOOP_TEST(film_comes_off_and_stays, 0, 3) {
     const Kind& kind = kinds[static_cast<std::size_t>(loop)];
     const Film film(kind);
     const Scene turned = film.scene("corotational", kind.reduction), straight = film.scene("linear", kind.reduction);
@@ -93,7 +93,7 @@ LOOP_TEST(film_comes_off_and_stays, 0, 2) {
 }
 
 // An analysis that is saved after the film has come off goes on alike, bit by bit.
-LOOP_TEST(film_that_is_off_is_saved, 0, 2) {
+LOOP_TEST(film_that_is_off_is_saved, 0, 3) {
     const Kind& kind = kinds[static_cast<std::size_t>(loop)];
     const Scene scene = Film(kind).scene("corotational", kind.reduction);
     Solver solver(scene, 0.0);

@@ -1,34 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Watches an analysis with small rotations for the step in which these leave out too much (kinematics = auto).
+//
+// To judge a state costs a factorisation of all bodies, more than most steps do. At fixed damage and contact rotations
+// and stresses are in proportion to the loads; the energy that small rotations leave out grows with the square of the
+// rotations, and critical stresses fall with the square of the length of a strip that has come off. So a measure is
+// computed only where loads, damage or contact differ so much from those for which it was known last that it may have
+// come half of the way from there to what counts.
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <string>
-#include <vector>
 
+#include "evolution/increment/state.hpp"
 #include "evolution/observe/observer.hpp"
 
 namespace delam {
 
-class RotationWatch {
-public:
-    // Returns what small rotations leave out of a state that the observer shows, in words; empty: nothing that counts.
-    std::string judge(Observer& observer, const State& state);
-
-private:
-    // Returns the stresses over those at which the bodies buckle; of a state that differs little from the one for which
-    // they were computed last, an estimate.
-    double buckling_ratio(Observer& observer, const State& state);
-
-    // Says for which loads, contact and debonded share of each interface the ratio was computed last.
-    struct Known {
-        double ratio;
-        std::vector<double> theta;
-        std::vector<std::uint8_t> closed;
-        std::vector<double> debonded;
-    };
-    std::optional<Known> known_;
-};
+// Returns what small rotations leave out of `next`, which the observer shows, in words; empty: nothing that counts. The
+// state keeps the measures that are known, those of `before` where they need not be computed.
+std::string judge_rotations(Observer& observer, const State& before, State& next);
 
 }  // namespace delam

@@ -11,6 +11,7 @@
 #include "base/numbers.hpp"
 #include "base/team.hpp"
 #include "evolution/analysis/parts_tangent.hpp"
+#include "evolution/analysis/rotation_watch.hpp"
 #include "evolution/analysis/take_over.hpp"
 #include "evolution/observe/balance.hpp"
 #include "evolution/observe/soundness.hpp"
@@ -281,7 +282,7 @@ Outcome Solver::advance(double time) {
     return outcome;
 }
 
-bool Solver::outgrows(const State& next) {
+bool Solver::outgrows(State& next) {
     const State& committed = states_.committed();
     // The observer keeps what it recovers of the state that it shows, which lives no longer than this step.
     struct Back {
@@ -291,7 +292,7 @@ bool Solver::outgrows(const State& next) {
     };
     const Back back{observer_, committed};
     observer_.show(next);
-    const std::string why = rotations_.judge(observer_, next);
+    const std::string why = judge_rotations(observer_, committed, next);
     if (!why.empty())
         monitor_.log(1, text("step ", next.step, " at time ", next.time, ": ", why, "; from time ", committed.time,
                              " on rotations are large (kinematics = auto)"));

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "evolution/analysis/rotation_watch.hpp"
 #include "evolution/analysis/states.hpp"
 #include "evolution/observe/observer.hpp"
 #include "evolution/observe/record.hpp"
@@ -110,7 +109,7 @@ private:
     void note_jump(const State& before, State& after, std::vector<JumpEvent>& jumps) const;
     void judge_balance(const State& state, Outcome& outcome);
     // True if small rotations leave out too much in this step, which is then told.
-    bool outgrows(const State& next);
+    bool outgrows(State& next);
 
     std::optional<StageOf> stage_;
     Problem problem_;
@@ -127,7 +126,6 @@ private:
     States states_;
     Record record_;
     bool may_turn_ = false;  // to large rotations
-    RotationWatch rotations_;
     bool warned_of_mixity_ = false;
     Observer observer_;
     Warnings warnings_;

@@ -158,6 +158,21 @@ struct Growth {
     std::int64_t way = 0;
 };
 
+// A measure of what small rotations leave out, of the state for which it was computed last, and what of this state
+// tells whether it must be computed again (analysis/rotation_watch.hpp).
+struct RotationCheck {
+    double value = 0.0;
+    std::vector<double> loads;     // with which it grows; empty: it was not computed yet
+    std::vector<double> damaged;   // [interfaces] share of the area that has lost its adhesion
+    std::vector<double> touching;  // [interfaces] share of the area that is closed
+};
+
+struct RotationChecks {
+    RotationCheck rotation;  // of cells, rad; its loads: [patterns]
+    RotationCheck energy;    // that small rotations leave out, of that of the bodies; its load: the rotation
+    RotationCheck stresses;  // over the critical ones; its loads: [patterns]
+};
+
 // A part of a load step.
 struct StepPart {
     double time;    // its end
@@ -211,6 +226,7 @@ struct State {
     std::vector<double> jump_before;
     // [bodies] the step since which nothing holds all of a body's motions; negative: something does.
     std::vector<std::int64_t> free_since;
+    RotationChecks rotations;  // kinematics = auto
 };
 
 }  // namespace delam

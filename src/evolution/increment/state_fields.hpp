@@ -15,6 +15,8 @@ namespace delam {
 // The version with shares of the second shear; scenes without two toughnesses in shear have none, and save the one
 // before.
 inline constexpr std::uint32_t since_second_shares = 18;
+// The version with the state whose rotations were judged last, for kinematics = auto.
+inline constexpr std::uint32_t since_rotation_checks = 19;
 
 // One row a line.
 // clang-format off
@@ -33,6 +35,11 @@ inline constexpr auto saved_fields<JumpWithin> = saved_since(unsaved,
 template <>
 inline constexpr auto saved_fields<Buckling> =
     saved_since(17, &Buckling::modes, &Buckling::time, &Buckling::node, &Buckling::released);
+
+template <>
+inline constexpr auto saved_fields<RotationCheck> = saved_since(since_rotation_checks,
+    &RotationCheck::value, any_size(&RotationCheck::loads), any_size(&RotationCheck::damaged),
+    any_size(&RotationCheck::touching));
 
 template <>
 inline constexpr auto saved_fields<Sensitivity> = saved_since(unsaved,
@@ -142,7 +149,11 @@ inline constexpr auto saved_fields<State> = std::tuple_cat(
         member_of(&State::outcome, &StepOutcome::buckling)),
     saved_since(since_second_shares,
         member_of(&State::mixity, &PairMixities::second),
-        member_of(&State::mixity_before, &PairMixities::second)));
+        member_of(&State::mixity_before, &PairMixities::second)),
+    saved_since(since_rotation_checks,
+        member_of(&State::rotations, &RotationChecks::rotation),
+        member_of(&State::rotations, &RotationChecks::energy),
+        member_of(&State::rotations, &RotationChecks::stresses)));
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&

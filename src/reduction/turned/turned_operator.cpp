@@ -90,21 +90,15 @@ std::vector<HostPiece> loose_pieces(const Pieces& pieces, std::int32_t body, con
     return loose;
 }
 
-// Takes from forces of cells [mesh DOFs], less those of the scene's stiffness at displacements, what they do along the
-// free motions of its pieces, which is their rounding.
-void subtract_rigid(const LinearScene& scene, std::span<const double> displacement, std::span<double> force) {
+// Takes from forces on the nodes [mesh DOFs] what they do along the free motions of the scene's pieces.
+void hold_still(const LinearScene& scene, std::span<double> force) {
     const auto dim = index(scene.mesh->dimension());
-    std::vector<double> beyond;
-    for (std::size_t b = 0; b < scene.stiffness.size(); ++b)
-        for (const HostPiece& piece : scene.stiffness[b]->pieces) {
+    for (const std::shared_ptr<HostStiffness>& body : scene.stiffness)
+        for (const HostPiece& piece : body->pieces) {
             if (piece.fixed()) continue;
             std::vector<double> own, share(index(piece.free.columns));
-            beyond.assign(force.size(), 0.0);
-            add_product(scene.stiffness[b]->matrix, scene.mesh->body_nodes(static_cast<std::int32_t>(b)), dim,
-                        displacement, beyond);
             for (const std::int64_t node : piece.nodes)
-                for (std::size_t k = index(node) * dim; k < (index(node) + 1) * dim; ++k)
-                    own.push_back(force[k] - beyond[k]);
+                for (std::size_t k = index(node) * dim; k < (index(node) + 1) * dim; ++k) own.push_back(force[k]);
             multiply_transposed(piece.free, own, share);
             multiply(piece.free, share, own);
             for (std::size_t i = 0; i < own.size(); ++i) force[index(piece.nodes[i / dim]) * dim + i % dim] -= own[i];
@@ -220,15 +214,18 @@ void TurnedOperator::load(LinearScene& scene, std::span<const double> displaceme
                           std::span<const double> row_force) const {
     const TurnedBodies& bodies = at(displacement);
     const auto dim = index(problem_.mesh->dimension());
-    std::vector<double> force = bodies.force();
-    subtract_rigid(scene, displacement, force);
+    std::vector<double> force = bodies.force(), linear(force.size(), 0.0);
+    for (std::size_t b = 0; b < scene.stiffness.size(); ++b)
+        add_product(scene.stiffness[b]->matrix, scene.mesh->body_nodes(static_cast<std::int32_t>(b)), dim, displacement,
+                    linear);
+    add_scaled(-1.0, linear, force);
+    // Along free motions, what cells and slides do is rounding, or comes to an end with the iteration.
+    jumps_->add_slides(bodies, row_force, force);
+    hold_still(scene, force);
     jumps_->add_couples(bodies, row_force, force);
     jumps_->add_pulls(row_force, force);
     jumps_->subtract_pulls(*scene.mesh, row_force, force);
     for (double& f : force) f = -f;
-    for (std::size_t b = 0; b < scene.stiffness.size(); ++b)
-        add_product(scene.stiffness[b]->matrix, scene.mesh->body_nodes(static_cast<std::int32_t>(b)), dim, displacement,
-                    force);
     add_forces(problem_, force, scene);
     const std::vector<std::vector<double>> of_strains = strains_->forces(bodies);
     for (std::size_t p = 0; p < of_strains.size(); ++p)
@@ -291,6 +288,7 @@ std::vector<double> TurnedOperator::internal_force(std::span<const double> theta
         if (!of_strains[p].empty()) add_scaled(-theta[p], of_strains[p], force);
     jumps_->add_pulls(response.force, force);
     jumps_->add_couples(bodies, response.force, force);
+    jumps_->add_slides(bodies, response.force, force);
     return force;
 }
 
@@ -313,6 +311,11 @@ TurnedOperator::Unbalanced TurnedOperator::unbalanced(std::span<const double> th
     const double load = load_size(theta, response, force);
     return {delam::equilibrium_defect(*bodies_, theta, force, no_row_force_) / load,
             rounding_of_forces(response.multipliers) / load};
+}
+
+double TurnedOperator::longest_slide(const Response& response) const {
+    (void)at(response.multipliers);
+    return jumps_->longest_slide(response.force);
 }
 
 Vector3 TurnedOperator::pull_of(std::size_t interface, const Response& response) const {

@@ -80,6 +80,8 @@ public:
     void add_strain_energy(std::span<double> tangent) const { strains_->add_energy(tangent); }
     // Returns the largest reaction, dead force or nodal force of eigenstrains, F.
     double load_size(std::span<const double> theta, const Response& response) const;
+    // Returns the longest slide of pairs that pull, over the spacing of the pairs.
+    double longest_slide(const Response& response) const;
     // Returns the force with which an interface pulls at its second side.
     Vector3 pull_of(std::size_t interface, const Response& response) const;
     // Returns the rounding of forces on the nodes at displacements, F.

@@ -13,6 +13,7 @@
 #include "evolution/increment/step_account.hpp"
 #include "evolution/step/jump_event.hpp"
 #include "evolution/step/turned/balanced.hpp"
+#include "evolution/step/turned/mixing.hpp"
 #include "linalg/dense/dense.hpp"
 
 namespace delam {
@@ -25,6 +26,9 @@ constexpr std::int64_t most_modes = 8;
 // Beyond this share of its fall, what the energy falls by more than on a branch from the critical load is the release
 // of a snap-through. (A strut in 15 steps leaves 0.002, a blister in 60, whose root softens, less than nothing.)
 constexpr double snaps = 0.1;
+// Pairs that press and have slid by more than this share of their spacing may alternate (mixing.hpp, where half and
+// twice are told).
+constexpr double slides = 0.5;
 
 // 1/2 d^T matrix d; 0 without a matrix.
 double half_square(std::span<const double> matrix, std::span<const double> d) {
@@ -32,12 +36,6 @@ double half_square(std::span<const double> matrix, std::span<const double> d) {
     for (std::size_t i = 0; i < d.size() && !matrix.empty(); ++i)
         for (std::size_t j = 0; j < d.size(); ++j) sum += 0.5 * d[i] * matrix[i * d.size() + j] * d[j];
     return sum;
-}
-
-std::vector<double> difference(std::span<const double> a, std::span<const double> b) {
-    std::vector<double> d(a.begin(), a.end());
-    for (std::size_t i = 0; i < d.size(); ++i) d[i] -= b[i];
-    return d;
 }
 
 // Returns the node that moves most along a mode, [mesh DOFs].
@@ -211,6 +209,7 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
     Effort effort;
     State start = extended(before, problem_.patterns.size()), lowest;
     Balanced at_rest(limits.turned_balance, limits.minimise_most_idle);
+    Mixing mixing;
     bool rested = false;
     double level = from.level, off_before = from.off, least = std::numeric_limits<double>::infinity();
     for (std::int64_t n = 1;; ++n) {
@@ -244,16 +243,23 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
         }
         const bool rises = energy > level + noise && (off > off_before || from.falls);
         std::vector<std::uint8_t> loose = loose_.of(next.state);
-        const bool kept = own && !rises && definite && off < limits.turned_kept * off_before &&
-                          linear_.keeps_stiffness() && loose == about.loose;
-        const std::vector<double> origin = at;
         std::vector<double>& image = next.state.response.multipliers;
-        row_force = loose_.pressing(loose, next.state);
+        const std::vector<double> origin = at;
+        std::vector<double> pressing = loose_.pressing(loose, next.state);
+        if (!from.falls && op_.longest_slide(next.state.response) > slides)
+            mixing.add({at, std::move(row_force)}, {image, pressing}, next.state.adhesion, {off, energy});
+        row_force = std::move(pressing);
+        const bool kept = own && definite && linear_.keeps_stiffness() && loose == about.loose &&
+                          (mixing.needed() || (!rises && off < limits.turned_kept * off_before));
         // On its way from a state that is not stable, a step goes as far along a move as the energy falls: linear
         // steps without stresses are short, those whose stiffness is nearly singular long.
         if (from.falls && (rises || !definite)) {
             const std::vector<double> move = difference(image, at);
             add_scaled(lowest_share(op_, pairs_, next.state, at, move), move, at);
+        } else if (mixing.needed()) {
+            Iterate mixed = mixing.mixed();
+            at = std::move(mixed.displacement);
+            row_force = std::move(mixed.row_force);
         } else if (rises) {
             for (std::size_t i = 0; i < at.size(); ++i) at[i] = 0.5 * (at[i] + image[i]);
         } else {
