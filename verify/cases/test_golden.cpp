@@ -71,6 +71,11 @@ Scene slab(const char* step_control, bool sheared = false) {
 
 Scene scene_of(const std::string& name) {
     if (name == "followed" || name == "sheared") return slab("load", name == "sheared");
+    if (name == "watched") {
+        Scene scene = slab("fixed");
+        scene.text("kinematics", "auto");
+        return scene;
+    }
     return name == "space" ? slab("fixed") : bar(name.c_str());
 }
 
@@ -80,7 +85,7 @@ struct Golden {
     std::uint32_t since;
 };
 constexpr Golden goldens[] = {{"feti", 5},     {"energetic", 5}, {"told", 6},    {"space", 6},
-                              {"recorded", 7}, {"followed", 15}, {"sheared", 18}};
+                              {"recorded", 7}, {"followed", 15}, {"sheared", 18}, {"watched", 19}};
 constexpr int steps = 8, saved = 5;
 
 // told: the host changes a history halfway; recorded: it records a value. Both are then part of the saved state.

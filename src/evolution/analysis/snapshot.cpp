@@ -254,7 +254,7 @@ void skip_head(Reader& r, const Solver& solver) {
 
 // Returns the first version that holds all there is to save, so that libraries which know no later one read it.
 std::uint32_t version_for(const Solver& solver) {
-    if (!solver.states().committed().rotations.rotation.loads.empty()) return since_rotation_checks;
+    if (solver.stage() != nullptr && may_turn(*solver.stage()->whole)) return since_rotation_checks;
     return solver.stepper().pairs().two_shears() ? since_second_shares : since_second_shares - 1;
 }
 
