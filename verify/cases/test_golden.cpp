@@ -84,7 +84,7 @@ struct Golden {
     const char* name;
     std::uint32_t since;
 };
-constexpr Golden goldens[] = {{"feti", 5},     {"energetic", 5}, {"told", 6},    {"space", 6},
+constexpr Golden goldens[] = {{"feti", 5},     {"energetic", 5}, {"told", 6},     {"space", 6},
                               {"recorded", 7}, {"followed", 15}, {"sheared", 18}, {"watched", 19}};
 constexpr int steps = 8, saved = 5;
 

@@ -430,6 +430,9 @@ Design chosen(const Problem& problem, Monitor& monitor) {
 
 Design design_operator(const Problem& problem, Monitor& monitor) {
     Design design = chosen(problem, monitor);
+    if (problem.options.kinematics == "corotational")
+        for (ReductionCost* cost : {&design.choice.condensation, &design.choice.iteration})
+            cost->step += turned_setups * cost->setup;
     const Realisation first = design.choice.realisation;
     prefer_what_fits(design.choice);
     if (design.choice.realisation != first) {
