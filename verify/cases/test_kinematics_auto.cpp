@@ -119,6 +119,34 @@ TEST(rotations_become_large_where_loads_turn_round) {
     cases::expect(modes > 0.0, "the layer stays flat");
 }
 
+// A host that changes a history on the way gets the loads of the new one, whether rotations are large by then or become
+// so later, and so does an analysis that is resumed.
+LOOP_TEST(histories_change_on_the_way, 0, 2) {
+    const Beam beam{40.0, 0.5, 20.0, 80, 2};
+    const char* kinematics = loop == 0 ? "corotational" : "auto";
+    const Scene scene = double_cantilever(beam, 8.0, kinematics), other = double_cantilever(beam, 5.0, kinematics);
+    Solver solver(scene, 0.0), expected(other, 0.0);
+    const double opened[] = {1.6, 3.2, 3.8, 4.4, 5.0};
+    std::vector<std::uint8_t> saved;
+    for (int k = 1; k <= 5; ++k) {
+        const double time = 1.0, value = 5.0;
+        if (k == 3) REQUIRE(scene, delam_solver_set_history, solver.get(), 0, 1, &time, &value);
+        solver.step(0.2 * k);
+        expected.step(opened[k - 1] / 5.0);
+        for (Solver* one : {&solver, &expected}) one->commit();
+        for (const char* key : {"reaction:load", "work", "dissipated"})
+            cases::expect_near(solver.value(key), expected.value(key), 1e-6, expected.value("work"), key);
+        if (k == 3) saved = solver.save();
+    }
+    Solver resumed(scene, 0.0);
+    scene.require(resumed.load(saved), "delam_solver_load");
+    for (int k = 4; k <= 5; ++k) {
+        resumed.step(0.2 * k);
+        resumed.commit();
+    }
+    cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(solver), "saved and loaded");
+}
+
 // A step with a located jump has no tangent; once a host has asked for one, it is taken whole and has.
 TEST(tangents_end_the_search_for_jumps) {
     const Scene scene = flexure({100.0, 1.0, 12.0, 200, 2}, equal_modes(12.0, 0.1), 6.0, "corotational");

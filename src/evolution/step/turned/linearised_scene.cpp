@@ -33,6 +33,7 @@ Stepper& LinearisedScene::about(const TurnedPoint& point, std::span<const double
     if (!linear_ || ((linear_->loose || !point.loose.empty()) && linear_->about != point))
         begin(point, at, row_force.size());
     Linear& linear = *linear_;
+    take_histories();
     const bool turned = linear.about == point;
     if (turned && std::ranges::equal(linear.at, at) && std::ranges::equal(linear.row_force, row_force))
         return *linear.stepper;
@@ -45,6 +46,14 @@ Stepper& LinearisedScene::about(const TurnedPoint& point, std::span<const double
     linear.at.assign(at.begin(), at.end());
     linear.row_force.assign(row_force.begin(), row_force.end());
     return *linear.stepper;
+}
+
+void LinearisedScene::take_histories() {
+    for (std::size_t p = 0; p < problem_.patterns.size(); ++p) {
+        const Pattern& now = problem_.patterns[p];
+        Pattern& own = linear_->scene.problem.patterns[p];
+        if (own.times != now.times || own.values != now.values) own = now;
+    }
 }
 
 Stepper& LinearisedScene::under(std::span<const double> force) {

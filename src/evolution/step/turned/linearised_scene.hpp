@@ -54,6 +54,8 @@ private:
         TurnedPoint about;                  // its stiffness and frames
         std::vector<double> at, row_force;  // its loads; empty: not set
     };
+    // A host may have changed them since the scene was made.
+    void take_histories();
     void begin(const TurnedPoint& point, std::span<const double> at, std::size_t rows);
     Stepper& renewed(Renewed what);
 
