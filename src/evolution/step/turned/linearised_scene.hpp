@@ -2,6 +2,7 @@
 // The scene that stays linear about given places of bodies with large rotations, and the stepper of its load steps.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
@@ -34,12 +35,17 @@ public:
     Stepper& under(std::span<const double> force);
     // Lets the steps that `take` takes search for states of lower energy.
     template <class Take>
-    Stepper::Result searching(const Take& take) {
-        std::string& solution = linear_->scene.problem.options.solution;
-        solution = "energetic";
-        const auto ends =
-            std::unique_ptr<std::string, void (*)(std::string*)>(&solution, [](std::string* s) { *s = "local"; });
-        return take();
+    auto searching(const Take& take) {
+        return with(&Options::solution, std::string("energetic"), take);
+    }
+    // Lets pairs damage in what `take` derives. Their adhesion is that of the last linear step, whose jumps differ from
+    // those of the balance by what this leaves: a change that they would make up to this tolerance is none.
+    template <class Take>
+    auto derived(const Take& take) {
+        constexpr double of_balance = 100.0;
+        const Options& options = problem_.options;
+        return with(&Options::damage_tolerance,
+                    std::max(options.damage_tolerance, of_balance * options.limits.turned_balance), take);
     }
     // Returns the stepper of the scene as it is; there must be one.
     Stepper& stepper() const { return *linear_->stepper; }
@@ -56,6 +62,18 @@ private:
     };
     // A host may have changed them since the scene was made.
     void take_histories();
+    // Calls `take` with another value of an option of the scene.
+    template <class Value, class Take>
+    auto with(Value Options::*option, Value value, const Take& take) {
+        struct Back {
+            Value& own;
+            Value before;
+            ~Back() { own = before; }
+        };
+        Value& own = linear_->scene.problem.options.*option;
+        const Back back{own, std::exchange(own, std::move(value))};
+        return take();
+    }
     void begin(const TurnedPoint& point, std::span<const double> at, std::size_t rows);
     Stepper& renewed(Renewed what);
 

@@ -483,8 +483,9 @@ std::vector<double> TurnedSteps::tangent(const State& state) const {
 std::vector<double> TurnedSteps::step_tangent(const State& before, const State& state) const {
     State own = extended(state, problem_.patterns.size());
     own.theta.back() = 1.0;
-    return of_patterns(
-        without_loads(point_at(state), state).step_tangent(extended(before, problem_.patterns.size()), own));
+    const State from = extended(before, problem_.patterns.size());
+    Stepper& stepper = without_loads(point_at(state), state);
+    return of_patterns(linear_.derived([&] { return stepper.step_tangent(from, own); }));
 }
 
 void delegate_to_turned_steps(Stepper& stepper, const Problem& problem, Monitor& monitor) {
