@@ -21,7 +21,7 @@ using reference::Solver;
 
 constexpr LawData strong{1e5, 1e5, 1e5, 1e5, 1e6, 1e6, 1.0};
 
-// The support is below the end of the notch, so that its force passes through the last pairs that still touch.
+// The left support is at the lower face, so that its force reaches the upper arm through the last pairs that touch.
 Scene specimen(int dimension, int cells, double w, const char* reduction) {
     Beam beam{100.0, 1.0, 30.0, cells, dimension == 2 ? std::max(1, cells / 100) : 1};
     beam.dimension = dimension;

@@ -9,8 +9,9 @@
 //
 //     M_c = m_c R (tr S I - S)^T J^-1 R^T sum_r t_r q_r x (u_b - u_a),    S = R^T R_c, J = tr U I - U.
 //
-// Where faces have slid against each other, the cells are those along the way (slide_paths.hpp), and the weights change
-// with the slide s_r = q_r . (u_b - u_a) in the frame without them: tractions also pull along it.
+// The cells are those along the way where faces have slid against each other (slide_paths.hpp). Their weights then
+// change with the slide s_r = q_r . (u_b - u_a), in the frame that the pair has without it: tractions also pull along
+// the slide.
 //
 // An obstacle is a plane, which moves and does not turn: the frames of its pairs stay, and their cells feel no couple.
 //

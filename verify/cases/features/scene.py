@@ -194,6 +194,8 @@ NOSE = Feature("control node", "", ("control node",), chosen(nose=True))
 BRITTLE = Feature("brittle law", "", ("law", "onset"),
                   lambda scene: scene.law.update(normal_onset=180.0, tangential_onset=230.0))
 
+TURNED = Feature("large rotations", "", ("corotational", "rotations"), option("kinematics", "corotational"))
+
 LOCAL = Feature("local", "solution", ("local",), option("solution", "local"))
 CONVERGED = Feature("converged", "mixity_rule", ("converged",), option("mixity_rule", "converged"))
 
@@ -214,6 +216,7 @@ FEATURES = (
     NOSE,
     Feature("dead force", "", ("force",), chosen(pressed=True)),
     BRITTLE,
+    TURNED,
     Feature("adaptive steps", "", ("step_control",), option("step_control", "adaptive")),
     Feature("located jumps", "", ("jump_tolerance",), option("jump_tolerance", 1e-2)),
     SENSITIVITY,

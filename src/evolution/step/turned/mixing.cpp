@@ -12,24 +12,23 @@ namespace delam {
 
 namespace {
 
-// Half and twice of each (of `rounding` a hundredth and a hundred times) pass verify/cases/test_turned_sliding.cpp and
-// test_turned_energetic.cpp in 0.9 to 1.1 times the time; without any mixing, slides of four square cells take 1.6
-// times the linear steps.
-constexpr std::size_t most_steps = 8;
-// So many steps at the same damage, of which the last leaves more than this share of what the two before have left, are
-// combined from then on.
-constexpr std::size_t least_steps = 4;
-constexpr double slow = 0.5;
-// Steps that leave more than this share of the load out of balance are far from where they lead.
-constexpr double near = 0.05;
-// An adhesion that changes by more belongs to another damage.
-constexpr double same_adhesion = 1e-3;
-// Directions in which the moves differ by less than this share of the largest are rounding.
-constexpr double rounding = 1e-8;
+// Says when steps are combined, and which. (verify/cases/test_turned_sliding.cpp and test_turned_energetic.cpp pass in
+// 0.9 to 1.1 times the time with half and twice of each: 3 and 8 least steps, 0.25 and 0.9 of slow, and of `rounding` a
+// hundredth and a hundred times. Without combining, examples/enf-modified with large rotations takes 20 to 23 linear
+// steps a load step instead of 13 or 14.)
+struct MixingLimits {
+    std::size_t most_steps = 8;   // of which the next one is combined
+    std::size_t least_steps = 4;  // at the same damage, before any are combined,
+    double slow = 0.5;            // if the last leaves more than this share of what the two before have left
+    double near = 0.05;           // of the load: steps that leave more out of balance are far from where they lead
+    double same_adhesion = 1e-3;  // an adhesion that changes by more belongs to another damage
+    double rounding = 1e-8;       // of the largest move: directions in which the moves differ by less say nothing
+};
+constexpr MixingLimits mixing_limits;
 
 bool alike(std::span<const double> a, std::span<const double> b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](double x, double y) { return std::abs(x - y) <= same_adhesion; });
+                      [](double x, double y) { return std::abs(x - y) <= mixing_limits.same_adhesion; });
 }
 
 }  // namespace
@@ -41,24 +40,24 @@ std::vector<double> difference(std::span<const double> a, std::span<const double
 }
 
 void Mixing::add(Iterate from, Iterate result, std::span<const double> adhesion, Balance balance) {
-    if (!alike(adhesion_, adhesion) || balance.off > near) {
+    if (!alike(adhesion_, adhesion) || balance.off > mixing_limits.near) {
         steps_.clear();
         needed_ = false;
     }
     adhesion_.assign(adhesion.begin(), adhesion.end());
     const std::size_t n = steps_.size();
-    if (n + 1 >= least_steps) {
+    if (n + 1 >= mixing_limits.least_steps) {
         const Balance &last = steps_[n - 1].balance, &before = steps_[n - 2].balance;
-        const bool comes_nearer = balance.off <= slow * std::min(last.off, before.off);
+        const bool comes_nearer = balance.off <= mixing_limits.slow * std::min(last.off, before.off);
         const bool falls = balance.energy < std::min(last.energy, before.energy);
         needed_ = needed_ || (!comes_nearer && !falls);
     }
     steps_.push_back({difference(result.displacement, from.displacement), std::move(result), balance});
-    if (steps_.size() > most_steps) steps_.pop_front();
+    if (steps_.size() > mixing_limits.most_steps) steps_.pop_front();
 }
 
-// With the last move m and d_i = m - m_i, the parts c minimise |m - sum c_i d_i|, and from the results r the steps go
-// on with r - sum c_i (r - r_i).
+// The parts c minimise |m - sum c_i d_i| with the last move m and d_i = m - m_i; from the results r the steps go on
+// with r - sum c_i (r - r_i).
 Iterate Mixing::mixed() const {
     const Step& last = steps_.back();
     const auto n = static_cast<std::int64_t>(steps_.size()) - 1;
@@ -72,7 +71,8 @@ Iterate Mixing::mixed() const {
     }
     const Eigen spectrum = eigen_symmetric(std::move(products));
     for (std::int64_t k = 0; k < n; ++k) {
-        if (!(spectrum.value[index(k)] > rounding * rounding * spectrum.value.back())) continue;
+        if (!(spectrum.value[index(k)] > mixing_limits.rounding * mixing_limits.rounding * spectrum.value.back()))
+            continue;
         const std::span<const double> v = column(spectrum.vector, k);
         add_scaled(dot(v, right) / spectrum.value[index(k)], v, parts);
     }
