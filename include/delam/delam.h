@@ -1253,8 +1253,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * `rotation_max` follows from the skew part of the displacement gradient at the centre of the cell. The theory of small
  * strains has a relative error of about half the square of this rotation. The solver warns once (log level 1) if it
  * exceeds 0.1. With `kinematics = corotational` it is the angle of the frame of a cell, up to pi, and nothing warns.
- * `mesh_error` and its like are then NaN. delam_solver_average, delam_solver_condensed and sensitivities answer
- * DELAM_ERROR_STATE. Scenes that this option does not know are refused by name when the solver is created.
+ * delam_solver_condensed and sensitivities then answer DELAM_ERROR_STATE. Scenes that this option does not know are
+ * refused by name when the solver is created.
  * `mesh_error` R comes from the stresses (Zienkiewicz and Zhu 1987, field mesh_error). It tells whether the mesh is too
  * coarse or its cells lock. Under prescribed displacements, the loads are too high by about R/(1 - R). NaN: no energy
  * is stored, or a body has no material.

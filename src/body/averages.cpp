@@ -24,6 +24,17 @@ struct CellIntegral {
     std::vector<double> gradient;
 };
 
+// Returns the integrals of the strains of displacements [nodes][dimension].
+std::array<double, 6> strain_of(const CellIntegral& cell, std::span<const double> displacement, std::size_t dim) {
+    std::array<double, 6> strain{};
+    for (std::size_t k = 0; k < displacement.size(); ++k)
+        for (std::size_t j = 0; j < dim; ++j) {
+            const std::size_t i = k % dim;
+            strain[i == j ? i : shear(i, j)] += cell.gradient[k - i + j] * displacement[k];
+        }
+    return strain;
+}
+
 CellIntegral integrate(const Mesh& mesh, std::int64_t c) {
     const std::size_t dim = index(mesh.dimension());
     const auto cell = mesh.cell(c);
@@ -80,6 +91,21 @@ SpaceElasticity product(const SpaceElasticity& a, const SpaceElasticity& b) {
         for (std::size_t j = 0; j < 6; ++j)
             for (std::size_t k = 0; k < 6; ++k) m[i * 6 + j] += a[i * 6 + k] * b[k * 6 + j];
     return m;
+}
+
+std::array<double, 6> product(const SpaceElasticity& m, const std::array<double, 6>& v) {
+    std::array<double, 6> out{};
+    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < 6; ++j) out[i] += m[i * 6 + j] * v[j];
+    return out;
+}
+
+// As rotated_strain(), whose shear strains are doubled.
+std::array<double, 6> rotated_stress(std::array<double, 6> stress, const std::array<double, 9>& axes) {
+    for (std::size_t i = 3; i < 6; ++i) stress[i] *= 2.0;
+    stress = rotated_strain(stress, axes);
+    for (std::size_t i = 3; i < 6; ++i) stress[i] *= 0.5;
+    return stress;
 }
 
 // e* in the axes of a cell, from that in material axes, [6][6].
@@ -168,6 +194,39 @@ VolumeAverage volume_average(const Mesh& mesh, std::span<const BodyModel> models
         stress[i] = dot(weights.stress[i], displacement);
     }
     return weights.with(strain, stress, eigenstrain);
+}
+
+VolumeAverage volume_average(const Mesh& mesh, std::span<const BodyModel> models,
+                             const DisplacementOfCell& displacement, const AxesOfCell& axes,
+                             std::span<const Strain> eigenstrain, std::int32_t body) {
+    std::vector<CellElasticity> elasticity;
+    for (const BodyModel& model : models) elasticity.emplace_back(model, mesh.dimension());
+    VolumeAverage out;
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        const auto own = index(mesh.cell_body(c));
+        if (body >= 0 && mesh.cell_body(c) != body) continue;
+        poll_cancel("recover");
+        const CellIntegral cell = integrate(mesh, c);
+        const SpaceElasticity& space = elasticity[own].space(c);
+        const bool free = mesh.dimension() == 2 && models[own].plane == Plane::stress;
+        std::array<double, 6> prescribed{};
+        if (!eigenstrain.empty()) prescribed = product(turned(elasticity[own].axes(c)), eigenstrain[own]);
+        std::array<double, 6> strain = strain_of(cell, displacement(c), index(mesh.dimension()));
+        for (std::size_t i = 0; i < 6; ++i) strain[i] -= cell.volume * prescribed[i];
+        strain = product(elastic_strain(space, free), strain);
+        const std::array<double, 6> stress = rotated_stress(product(space, strain), axes(c));
+        for (std::size_t i = 0; i < 6; ++i) strain[i] += cell.volume * prescribed[i];
+        strain = rotated_strain(strain, axes(c));
+        out.volume += cell.volume;
+        for (std::size_t i = 0; i < 6; ++i) {
+            out.strain[i] += strain[i];
+            out.stress[i] += stress[i];
+        }
+    }
+    if (!(out.volume > 0.0)) return out;
+    for (double& e : out.strain) e /= out.volume;
+    for (double& s : out.stress) s /= out.volume;
+    return out;
 }
 
 }  // namespace delam

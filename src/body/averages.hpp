@@ -4,12 +4,15 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "body/assembly.hpp"
 #include "body/cell_elasticity.hpp"
 #include "body/eigenstrain.hpp"
 #include "body/model.hpp"
+#include "body/orientation.hpp"
 #include "mesh/mesh.hpp"
 
 namespace delam {
@@ -25,6 +28,12 @@ struct VolumeAverage {
 // plane stress no stress. models by body index; displacement: [mesh nodes][dimension]; eigenstrain by body index, in
 // material axes, or empty: stresses are C (eps - e*), strains the whole eps.
 VolumeAverage volume_average(const Mesh& mesh, std::span<const BodyModel> models, std::span<const double> displacement,
+                             std::span<const Strain> eigenstrain, std::int32_t body);
+// Returns the same of cells that turn: displacements are those in the frame of the cell, whose strains and stresses are
+// turned with it, and then summed. axes: of a cell's frame, by row.
+using AxesOfCell = std::function<Axes(std::int64_t cell)>;
+VolumeAverage volume_average(const Mesh& mesh, std::span<const BodyModel> models,
+                             const DisplacementOfCell& displacement, const AxesOfCell& axes,
                              std::span<const Strain> eigenstrain, std::int32_t body);
 
 // The same averages as sums over displacements and eigenstrains.

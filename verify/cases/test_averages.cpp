@@ -13,10 +13,11 @@ namespace {
 
 constexpr const char* realisations[] = {"condensed", "feti", "iterated"};
 
-constexpr double slope[3][3] = {{1e-3, 2e-3, -5e-4}, {3e-3, -2e-3, 1e-3}, {7e-4, 4e-4, 1.5e-3}};
+using Slope = double[3][3];
+constexpr Slope slope = {{1e-3, 2e-3, -5e-4}, {3e-3, -2e-3, 1e-3}, {7e-4, 4e-4, 1.5e-3}};
 
 // Two stacked blocks, bonded, all nodes driven to u = G x times time.
-reference::Scene affine(int dimension, std::int32_t cell, const char* plane) {
+reference::Scene affine(int dimension, std::int32_t cell, const char* plane, const Slope& g = slope) {
     const bool space = dimension == 3;
     reference::Scene scene(dimension, space ? std::vector<double>{2.0, 1.0} : std::vector<double>{2.0},
                            space ? std::vector<std::int64_t>{2, 2} : std::vector<std::int64_t>{2}, {1.0, 0.5}, {1, 1},
@@ -42,7 +43,7 @@ reference::Scene affine(int dimension, std::int32_t cell, const char* plane) {
                 if (list == &upper && std::abs(scene.coordinate(node, dimension - 1) - 1.0) < 1e-9)
                     continue;  // bonded to the ones below
                 double u = 0.0;
-                for (int j = 0; j < dimension; ++j) u += slope[i][j] * scene.coordinate(node, j);
+                for (int j = 0; j < dimension; ++j) u += g[i][j] * scene.coordinate(node, j);
                 scene.drive({node}, direction, pattern, {u});
             }
     }
@@ -111,6 +112,42 @@ LOOP_TEST(affine_averages, 0, 18) {
     expect_near(solver.value("rotation_max"),
                 dim == 2 ? std::abs(rotation[2]) : std::hypot(rotation[0], rotation[1], rotation[2]), 1e-12, 1.0,
                 "rotation_max");
+}
+
+// All nodes are moved by R (I + E): strains and stresses are those of E, turned by R, up to squares of E, by which the
+// frames of cells differ from R. loop: plane strain, plane stress, space.
+LOOP_TEST(turned_averages, 0, 3) {
+    const int dim = loop == 2 ? 3 : 2;
+    const double c = std::cos(0.7), s = std::sin(0.7);
+    const Slope turn = {{c, -s, 0.0}, {s, c, 0.0}, {0.0, 0.0, 1.0}};
+    Slope small = {{1e-3, 2e-3, 0.0}, {2e-3, -3e-3, 0.0}, {0.0, 0.0, 0.0}};
+    if (dim == 3) small[0][2] = small[2][0] = -1e-3, small[1][2] = small[2][1] = 5e-4, small[2][2] = 2e-3;
+    const double in_plane = small[0][0] + small[1][1];
+    if (loop == 1) small[2][2] = -0.3 / 0.7 * in_plane;
+    Slope g = {};
+    for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j) {
+            g[i][j] = turn[i][j] - (i == j ? 1.0 : 0.0);
+            for (int k = 0; k < dim; ++k) g[i][j] += turn[i][k] * small[k][j];
+        }
+    constexpr std::int32_t cell[] = {DELAM_QUAD4, DELAM_QUAD8, DELAM_HEX8};
+    reference::Scene scene = affine(dim, cell[loop], loop == 0 ? "plane-strain" : loop == 1 ? "plane-stress" : "", g);
+    scene.text("kinematics", "corotational");
+    reference::Solver solver(scene, 0.0);
+    solver.step(1.0);
+    const double mu = 10.0 / 2.6, lambda = 10.0 * 0.3 / (1.3 * 0.4);
+    const double trace = small[0][0] + small[1][1] + small[2][2];
+    std::array<double, 6> strain{}, stress{};
+    REQUIRE(scene, delam_solver_average, solver.get(), 0, nullptr, strain.data(), stress.data());
+    constexpr std::size_t row[] = {0, 1, 2, 0, 1, 2}, column[] = {0, 1, 2, 1, 2, 0};
+    for (std::size_t i = 0; i < 6; ++i) {
+        double exact = i < 3 ? lambda * trace : 0.0, of_strain = 0.0;
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t l = 0; l < 3; ++l) of_strain += turn[row[i]][k] * small[k][l] * turn[column[i]][l];
+        exact += 2.0 * mu * of_strain;
+        expect_near(strain[i], (i < 3 ? 1.0 : 2.0) * of_strain, 1e-5, 1.0, "strain");
+        expect_near(stress[i], exact, 1e-4, 1.0, "stress");
+    }
 }
 
 // A prescribed strain in a fixed body: the strain stays that of the displacements, the stress lacks C e*; the same out

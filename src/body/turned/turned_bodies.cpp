@@ -180,24 +180,20 @@ std::vector<double> TurnedBodies::centre_stress(std::span<const BodyModel> model
     };
     std::vector<double> stress =
         delam::centre_stress(mesh_, models, of_cell, CentreGradients(mesh_).slopes(of_cell), eigenstrains);
-    const bool plane = mesh_.dimension() == 2;
-    const std::size_t columns = plane ? 4 : 6;
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-        double* s = &stress[c * columns];
-        const Matrix3& r = cells_[c].rotation();
-        const double yz = plane ? 0.0 : s[4], zx = plane ? 0.0 : s[5];
-        const Matrix3 local{s[0], s[3], zx, s[3], s[1], yz, zx, yz, s[2]};
-        Matrix3 half{}, turned{};  // R s, R s R^T
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < 3; ++j)
-                for (std::size_t k = 0; k < 3; ++k) half[i * 3 + j] += r[i * 3 + k] * local[k * 3 + j];
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < 3; ++j)
-                for (std::size_t k = 0; k < 3; ++k) turned[i * 3 + j] += half[i * 3 + k] * r[j * 3 + k];
-        s[0] = turned[0], s[1] = turned[4], s[2] = turned[8], s[3] = turned[1];
-        if (!plane) s[4] = turned[5], s[5] = turned[2];
-    }
+    const std::size_t columns = mesh_.dimension() == 2 ? 4 : 6;
+    for (std::size_t c = 0; c < cells_.size(); ++c) turn_tensor(cells_[c].rotation(), {&stress[c * columns], columns});
     return stress;
+}
+
+VolumeAverage TurnedBodies::average(std::span<const BodyModel> models, std::span<const Strain> eigenstrains,
+                                    std::int32_t body) const {
+    std::vector<double> own;
+    const auto displacement = [&](std::int64_t c) {
+        own = local_displacement(c);
+        return std::span<const double>(own);
+    };
+    const auto axes = [&](std::int64_t c) { return transposed(rotation(c)); };
+    return volume_average(mesh_, models, displacement, axes, eigenstrains, body);
 }
 
 }  // namespace delam

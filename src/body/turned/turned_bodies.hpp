@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "body/averages.hpp"
 #include "body/eigenstrain.hpp"
 #include "body/model.hpp"
 #include "body/turned/turned_cell.hpp"
@@ -53,6 +54,10 @@ public:
     // Returns the stresses at the centres of the cells, in global axes (body/assembly.hpp). models, eigenstrains: by
     // body index; none: no body has any.
     std::vector<double> centre_stress(std::span<const BodyModel> models, std::span<const Strain> eigenstrains) const;
+
+    // Returns the means of strain and stress over a body (-1: all), in global axes (body/averages.hpp).
+    VolumeAverage average(std::span<const BodyModel> models, std::span<const Strain> eigenstrains,
+                          std::int32_t body) const;
 
 private:
     void gather(std::int64_t cell, std::span<const double> of_mesh, std::vector<double>& of_cell) const;

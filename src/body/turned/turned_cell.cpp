@@ -56,6 +56,20 @@ Vector3 transposed_times(const Matrix3& m, const Vector3& v) {
             m[2] * v[0] + m[5] * v[1] + m[8] * v[2]};
 }
 
+Matrix3 transposed(const Matrix3& m) { return {m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]}; }
+
+void turn_tensor(const Matrix3& rotation, std::span<double> s) {
+    constexpr std::size_t without_zz[] = {0, 4, 1}, in_plane[] = {0, 4, 8, 1}, in_space[] = {0, 4, 8, 1, 5, 2};
+    const std::span<const std::size_t> entry = s.size() == 3   ? std::span<const std::size_t>(without_zz)
+                                               : s.size() == 4 ? std::span<const std::size_t>(in_plane)
+                                                               : std::span<const std::size_t>(in_space);
+    Matrix3 tensor{};
+    for (std::size_t e = 0; e < s.size(); ++e) tensor[entry[e]] = tensor[entry[e] % 3 * 3 + entry[e] / 3] = s[e];
+    const Matrix3 back = transposed(rotation);
+    const Matrix3 turned = transposed_times(back, transposed_times(tensor, back));
+    for (std::size_t e = 0; e < s.size(); ++e) s[e] = turned[entry[e]];
+}
+
 Matrix3 transposed_times(const Matrix3& a, const Matrix3& b) {
     Matrix3 c{};
     for (std::size_t i = 0; i < 3; ++i)

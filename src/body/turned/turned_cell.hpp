@@ -33,7 +33,11 @@ Matrix3 spin_inverse(const Matrix3& stretch);
 
 Vector3 times(const Matrix3& m, const Vector3& v);
 Vector3 transposed_times(const Matrix3& m, const Vector3& v);
+Matrix3 transposed(const Matrix3& m);
 Matrix3 transposed_times(const Matrix3& a, const Matrix3& b);
+// Turns a symmetric tensor in place, R s R^T. Its entries are xx, yy, xy or xx, yy, zz, xy in the plane, xx, yy, zz,
+// xy, yz, zx in space.
+void turn_tensor(const Matrix3& rotation, std::span<double> s);
 
 class TurnedCell {
 public:

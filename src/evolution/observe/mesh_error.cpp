@@ -95,21 +95,26 @@ public:
             if (known[body(c)] != 0)
                 which_[index(c)] = static_cast<std::int32_t>(cells_.number(shape(c), [&] { return strained_cell(c); }));
     }
-    void take(std::span<const double> displacement, std::span<const Strain> eigenstrain) {
+    void take(std::span<const double> displacement, const TurnedBodies* turned, std::span<const Strain> eigenstrain) {
         displacement_ = displacement;
+        turned_ = turned;
         eigenstrain_ = eigenstrain;
     }
     std::size_t strains() const { return mesh_.dimension() == 2 ? 3 : 6; }
     std::span<const double> elasticity(std::int64_t cell) { return elasticity_[body(cell)].matrix(cell); }
 
-    // Finds the stresses at the Gauss points of a cell and their volumes. Returns CellStrains::excess.
+    // Finds the stresses at the Gauss points of a cell, in its frame, and their volumes. Returns CellStrains::excess.
     template <std::size_t count>
     double find(std::int64_t cell, std::size_t points, StressRow<count>* stress, double* volume) {
         const std::size_t dim = index(mesh_.dimension());
         std::array<double, 3 * most_cell_nodes> u;
         double* to = u.data();
-        for (const std::int64_t n : mesh_.cell(cell))
-            for (std::size_t i = 0; i < dim; ++i) *to++ = displacement_[index(n) * dim + i];
+        if (turned_ != nullptr) {
+            to = std::ranges::copy(turned_->local_displacement(cell), to).out;
+        } else {
+            for (const std::int64_t n : mesh_.cell(cell))
+                for (std::size_t i = 0; i < dim; ++i) *to++ = displacement_[index(n) * dim + i];
+        }
         const std::span<const double> matrix = elasticity(cell);
         const std::int32_t which = which_[index(cell)];
         if (which < 0) shape(cell);
@@ -169,6 +174,7 @@ private:
     const Mesh& mesh_;
     std::span<const BodyModel> models_;
     std::span<const double> displacement_;
+    const TurnedBodies* turned_ = nullptr;
     std::span<const Strain> eigenstrain_;
     std::vector<CellElasticity> elasticity_;
     CellShape shape_;
@@ -276,9 +282,9 @@ public:
             if (is_known(c))
                 points_ += to_nodes_.try_emplace(mesh.cell_type(c), mesh.cell_type(c)).first->second.points();
     }
-    MeshError of(std::span<const double> displacement, std::span<const Strain> eigenstrain) override;
 
 private:
+    MeshError estimate(const Moved& cells, std::span<const Strain> eigenstrain) override;
     bool is_known(std::int64_t cell) const { return known_[index(mesh_.cell_body(cell))] != 0; }
     // Calls use(cell, its type's values, its first Gauss point among all).
     void each_cell(const auto& use) {
@@ -302,8 +308,8 @@ private:
 };
 
 template <std::size_t count>
-MeshError Estimate<count>::of(std::span<const double> displacement, std::span<const Strain> eigenstrain) {
-    stresses_.take(displacement, eigenstrain);
+MeshError Estimate<count>::estimate(const Moved& cells, std::span<const Strain> eigenstrain) {
+    stresses_.take(cells.displacement, cells.turned, eigenstrain);
     MeshError error{std::vector<double>(index(mesh_.cell_count()), std::numeric_limits<double>::quiet_NaN()),
                     std::vector<double>(index(mesh_.cell_count()), 0.0)};
     // Stresses and volumes of all Gauss points, cell after cell.
@@ -323,6 +329,7 @@ MeshError Estimate<count>::of(std::span<const double> displacement, std::span<co
             StressRow<count> sum{};
             const double* weight = cell.weights(a);
             for (std::size_t q = 0; q < cell.points(); ++q) add_row(weight[q], at[q], sum);
+            if (cells.turned != nullptr) turn_tensor(cells.turned->rotation(c), {sum.data(), count});
             add_row(own, sum, mean[group[a]]);
             around[group[a]] += own;
         }
@@ -340,6 +347,7 @@ MeshError Estimate<count>::of(std::span<const double> displacement, std::span<co
             StressRow<count> difference{};
             const double* shape = cell.shapes(q);
             for (std::size_t a = 0; a < cell.nodes(); ++a) add_row(shape[a], mean[group[a]], difference);
+            if (cells.turned != nullptr) turn_tensor(transposed(cells.turned->rotation(c)), {difference.data(), count});
             add_row(-1.0, at[q], difference);
             sum += volume[first + q] * compliance.energy(difference);
         }

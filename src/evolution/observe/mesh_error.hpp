@@ -15,6 +15,7 @@
 
 #include "body/eigenstrain.hpp"
 #include "body/model.hpp"
+#include "body/turned/turned_bodies.hpp"
 #include "mesh/mesh.hpp"
 
 namespace delam {
@@ -29,7 +30,20 @@ class MeshErrorEstimate {
 public:
     virtual ~MeshErrorEstimate() = default;
     // displacement: [mesh nodes][dimension]. eigenstrain: by body index, in material axes, or empty.
-    virtual MeshError of(std::span<const double> displacement, std::span<const Strain> eigenstrain) = 0;
+    MeshError of(std::span<const double> displacement, std::span<const Strain> eigenstrain) {
+        return estimate({displacement, nullptr}, eigenstrain);
+    }
+    // Estimates the same of cells with frames: nodal means are those of stresses that have turned with the cells.
+    MeshError of(const TurnedBodies& bodies, std::span<const Strain> eigenstrain) {
+        return estimate({{}, &bodies}, eigenstrain);
+    }
+
+protected:
+    struct Moved {
+        std::span<const double> displacement;
+        const TurnedBodies* turned;  // null: rotations are small
+    };
+    virtual MeshError estimate(const Moved& cells, std::span<const Strain> eigenstrain) = 0;
 };
 
 // models, known: by body index; models where known is 0 are not read. The mesh must outlive what is returned.

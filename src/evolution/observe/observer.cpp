@@ -91,6 +91,7 @@ MeshError Observer::estimate(const State& state) {
             with_material.push_back(known(body) ? 1 : 0);
         estimates_ = mesh_error_estimate(*problem_.mesh, models(), std::move(with_material));
     }
+    if (const TurnedBodies* turned = op_.turned(state.response)) return estimates_->of(*turned, eigenstrains(state));
     return &state == shown_ ? estimates_->of(displacement(), eigenstrains())
                             : estimates_->of(displacement(state), eigenstrains(state));
 }
@@ -105,14 +106,9 @@ const std::vector<double>& Observer::slopes() {
     return slopes_;
 }
 
-std::vector<double> Observer::mesh_error_of_cells() {
-    if (op_.turned(state().response) != nullptr)
-        return std::vector<double>(index(problem_.mesh->cell_count()), unknown);
-    return estimate(state()).of_cell;
-}
+std::vector<double> Observer::mesh_error_of_cells() { return estimate(state()).of_cell; }
 
 MeshErrorShares Observer::mesh_error(const State& state) {
-    if (op_.turned(state.response) != nullptr) return {unknown, unknown, unknown};
     if (&state == shown_ && mesh_error_) return *mesh_error_;
     const MeshError error = estimate(state);
     std::vector<std::uint8_t> at_front(error.of_cell.size(), 0);
@@ -241,10 +237,10 @@ const Observer::AverageReadings* Observer::average_readings(std::int32_t body) {
 }
 
 VolumeAverage Observer::average(std::int32_t body) {
-    if (op_.turned(state().response) != nullptr)
-        fail(DELAM_ERROR_STATE, "averages of strain and stress are not known with kinematics = corotational");
     VolumeAverage average;
-    if (const AverageReadings* readings = average_readings(body)) {
+    if (const TurnedBodies* turned = op_.turned(state().response)) {
+        average = turned->average(models(), eigenstrains(), body);
+    } else if (const AverageReadings* readings = average_readings(body)) {
         std::array<double, 6> strain{}, stress{};
         for (std::size_t i = 0; i < 6; ++i) {
             strain[i] = readings->strain[i].at(state().theta, state().response);
