@@ -392,7 +392,6 @@ TEST(what_rotations_do_not_know_is_refused_by_name) {
         cases::expect(false, std::string("not refused: ") + word);
     };
     refused("backtracking = on", [](Scene& s) { s.text("backtracking", "on"); });
-    refused("step_control = load", [](Scene& s) { s.text("step_control", "load"); });
     refused("mixity_rule = variational", [](Scene& s) { s.text("mixity_rule", "variational"); });
     refused("reduction = feti", [](Scene& s) { s.text("reduction", "feti"); });
     refused("control node",

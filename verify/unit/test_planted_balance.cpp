@@ -145,7 +145,7 @@ Balance follow(Problem problem, Fault fault) {
     double open = 0.0;
     for (std::int64_t k = 1; k <= steps; ++k) {
         const double time = static_cast<double>(k) / steps;
-        ControlledStep step = faulty_step(faulty, graph, at, time, problem.options);
+        ControlledStep step = faulty_step(faulty, graph, at, time, problem.options, 0.0);
         balance.jumps += step.jumps.size();
         State next = std::move(step.result.state);
         if (fault == Fault::none) {

@@ -226,7 +226,7 @@ Outcome Solver::advance(double time) {
     std::exception_ptr failure;  // of a step that may be cut
     PendingStep pending;
     const bool cuts = turns(problem_) && (control_.located > 0.0 || options.step_control == "adaptive");
-    if (follows_load(options)) {
+    if (follows_load(options) && !turns(problem_)) {
         ControlledStep followed = followed_step(stepper_, graph_, committed, time, options);
         whole = std::move(followed.result);
         pending.jumps = std::move(followed.jumps);
@@ -244,7 +244,8 @@ Outcome Solver::advance(double time) {
     for (auto& [step, state] : chain.revised()) note_jump(chain.at(step - 1), state, pending.jumps);
     const State& from = chain.at(committed.step);
     const bool cut = cuts && (!whole || !whole->converged);
-    const bool halved = cut || (control_.located > 0.0 && may_jump(stepper_.pairs(), graph_, from, whole->state));
+    const bool halved = cut || (control_.located > 0.0 && (may_jump(stepper_.pairs(), graph_, from, whole->state) ||
+                                                           leaves_open(from, whole->state, options.accuracy)));
     Stepper::Result result;
     if (controls_steps(options) || halved) {
         ControlledStep controlled = controlled_step(stepper_, graph_, from, {time, std::move(whole), failure}, options,
@@ -254,7 +255,7 @@ Outcome Solver::advance(double time) {
         std::ranges::move(controlled.jumps, std::back_inserter(pending.jumps));
     } else {
         result = std::move(*whole);
-        if (!follows_load(options)) note_jump(from, result.state, pending.jumps);
+        if (!follows_load(options) || turns(problem_)) note_jump(from, result.state, pending.jumps);
     }
     pending.state = std::move(result.state);
     if (whole_) pending.state.growth.way = 2;
@@ -380,11 +381,11 @@ std::vector<double> Solver::step_tangent() {
     if (!pending->revised.empty())
         fail(DELAM_ERROR_STATE, "step tangent: not available, because backtracking has replaced the steps from ",
              pending->revised.front().step, " on");
-    if (pending->parts.size() > 1) {
+    if (pending->parts.size() > 1 || (turns(problem_) && pending->state.history.substeps > 1)) {
         if (turns(problem_)) take_whole_steps();  // so that the step has a tangent once it is taken again
         if (keeps_past(problem_.options) || turns(problem_))
             fail(DELAM_ERROR_STATE, "step tangent: not available, because the step was divided into ",
-                 pending->parts.size(),
+                 pending->state.history.substeps,
                  " substeps (step_control, jump_tolerance or mixity_step_tolerance), with a search "
                  "(solution = energetic), backtracking or large rotations in each");
         return parts_tangent(stepper_, problem_.patterns, states_.committed(), pending->parts);

@@ -117,6 +117,14 @@ bool far(const PairLaws& pairs, const PairGraph& graph, const State& before, con
     return advance > 0.0 && advance > regular_advance(pairs, graph, before, after, interface);
 }
 
+// True if a step that damages pairs leaves more open than this, and than a negligible share of the energy.
+bool exceeds(const State& before, const State& after, double allowed) {
+    const Ledger &a = before.ledger, &b = after.ledger;
+    const double dissipated = b.dissipated - a.dissipated;
+    const double open = b.work - a.work - (b.energy() - a.energy()) - dissipated - (b.released - a.released);
+    return dissipated > 0.0 && std::abs(open) > std::max(allowed, released_share * b.scale());
+}
+
 bool loses_load(const State& before, const State& after) {
     return std::abs(load(after)) < (1.0 - load_drop) * std::abs(load(before));
 }
@@ -142,10 +150,12 @@ bool jumps(const PairLaws& pairs, const PairGraph& graph, const State& before, c
 }
 
 bool leaves_open(const State& before, const State& after) {
-    const Ledger &a = before.ledger, &b = after.ledger;
-    const double dissipated = b.dissipated - a.dissipated;
-    const double open = b.work - a.work - (b.energy() - a.energy()) - dissipated - (b.released - a.released);
-    return dissipated > 0.0 && std::abs(open) > std::max(open_share * dissipated, released_share * b.scale());
+    const double dissipated = after.ledger.dissipated - before.ledger.dissipated;
+    return exceeds(before, after, open_share * dissipated);
+}
+
+bool leaves_open(const State& before, const State& after, double accuracy) {
+    return exceeds(before, after, accuracy * after.ledger.dissipated);
 }
 
 bool hides_jump(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {

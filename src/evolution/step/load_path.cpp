@@ -77,9 +77,9 @@ struct Trial {
 
 // Returns how much larger the load of the state after is, as ln M with E = M^2 / 2 at the jumps and the damage before:
 // the factor of the loads where they grow in proportion. Infinity: the energy does not tell it.
-double load_rise(const Stepper& stepper, const State& before, const State& after) {
+double load_rise(const Stepper& stepper, const State& before, const State& after, double base) {
     if (const std::optional<double> a = load_ratio(before.theta, after.theta)) return -std::log(*a);
-    const double from = before.ledger.energy(), to = from + stepper.held_rise(before, after.theta);
+    const double from = base + before.ledger.energy(), to = from + stepper.held_rise(before, after.theta);
     return from * to > 0.0 ? 0.5 * std::abs(std::log(to / from)) : std::numeric_limits<double>::infinity();
 }
 
@@ -103,9 +103,11 @@ constexpr int most_unsettled = 2;
 
 class LoadPath {
 public:
-    LoadPath(Stepper& stepper, const PairGraph& graph, const State& before, double end, const Options& options)
+    LoadPath(Stepper& stepper, const PairGraph& graph, const State& before, double end, const Options& options,
+             double base)
         : stepper_(stepper),
           options_(options),
+          base_(base),
           begin_(before.time),
           end_(end),
           at_(before),
@@ -141,6 +143,7 @@ private:
 
     Stepper& stepper_;
     const Options& options_;
+    double base_;  // followed_step()
     double begin_, end_;
     State at_;  // end of the parts accepted so far
     const PairGraph& graph_;
@@ -206,7 +209,7 @@ Trial LoadPath::attempt(const Plan& plan, bool along_path) {
     trial.settled = trial.result.converged && next.outcome.mixity_held == 0;
     trial.own = std::max(plan.reach - plan.start, 0.0);
     trial.part = {advance_between(stepper_.pairs(), graph_, stepper_.initial_adhesion(), at_, next),
-                  load_rise(stepper_, at_, next) * trial.own / (plan.reach - at_.time),
+                  load_rise(stepper_, at_, next, base_) * trial.own / (plan.reach - at_.time),
                   std::min(plan.start, plan.reach), false};
     trial.damages = trial.part.advance.zone > 0.0;
     if (!trial.damages) {
@@ -418,8 +421,8 @@ ControlledStep LoadPath::close() {
 bool follows_load(const Options& options) { return options.step_control == "load"; }
 
 ControlledStep followed_step(Stepper& stepper, const PairGraph& graph, const State& before, double time,
-                             const Options& options) {
-    return LoadPath(stepper, graph, before, time, options).run();
+                             const Options& options, double base) {
+    return LoadPath(stepper, graph, before, time, options, base).run();
 }
 
 }  // namespace delam

@@ -25,7 +25,8 @@ namespace delam {
 
 // True if steps are followed in this way (step_control = auto or load).
 bool follows_load(const Options& options);
+// base: by which energies of the scene are less than those whose growth tells that of the load.
 ControlledStep followed_step(Stepper& stepper, const PairGraph& graph, const State& before, double time,
-                             const Options& options);
+                             const Options& options, double base = 0.0);
 
 }  // namespace delam

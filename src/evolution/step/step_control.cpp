@@ -109,6 +109,7 @@ private:
 bool Parts::too_long(const Stepper::Result& result, double change) const {
     const Ledger& l = result.state.ledger;
     if (cuts_ && ((converged_ && !result.converged) || leaves_open(at_, result.state))) return true;
+    if (located_ > 0.0 && cuts_ && leaves_open(at_, result.state, options_.accuracy)) return true;
     return (options_.step_control == "adaptive" &&
             (!result.converged || (change > 0.0 && l.upper - l.lower > options_.step_tolerance * l.scale()))) ||
            (options_.mixity_step_tolerance > 0.0 && l.mixity_error > options_.mixity_step_tolerance);

@@ -115,6 +115,13 @@ void add_forces(const Problem& problem, std::span<const double> force, LinearSce
 
 }  // namespace
 
+bool TurnedPoint::loosen(const std::vector<std::uint8_t>& more) {
+    const std::vector<std::uint8_t> before = loose;
+    if (loose.empty()) loose = more;
+    for (std::size_t b = 0; b < more.size(); ++b) loose[b] = std::max(loose[b], more[b]);
+    return loose != before;
+}
+
 std::vector<double> TurnedPoint::numbers() const {
     std::vector<double> numbers{stresses == TurnedCell::Stresses::count ? 1.0 : 0.0};
     for (const std::vector<double>* part : {&displacement, &from, &along})

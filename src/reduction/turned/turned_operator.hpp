@@ -35,6 +35,8 @@ struct TurnedPoint {
     // place are free of energy. Empty: there are none. A state does not remember it, but tells it.
     std::vector<std::uint8_t> loose{};
     bool operator==(const TurnedPoint&) const = default;
+    // Adds loose bodies, [bodies]. True if there are more then.
+    bool loosen(const std::vector<std::uint8_t>& more);
     // Returns it as the numbers that a state remembers, and back. None say that it was linearised at its displacements.
     std::vector<double> numbers() const;
     static TurnedPoint of(std::span<const double> numbers, std::span<const double> displacement,

@@ -18,7 +18,6 @@ namespace {
 // Returns the setting that large rotations do not know; empty: there is none.
 std::string unknown_option(const Options& options) {
     if (options.backtracking == "on") return "backtracking = on";
-    if (options.step_control == "load") return "step_control = load";
     if (options.mixity_rule == "variational") return "mixity_rule = variational";
     if (options.reduction == "feti") return "reduction = feti";
     if (options.subdomains > 0) return text("subdomains = ", options.subdomains);
@@ -67,9 +66,7 @@ std::int64_t turning_control(const Problem& problem, const Carriers& carriers) {
 std::string unknown_to_rotations(const Problem& problem) {
     const Mesh& mesh = *problem.mesh;
     if (const std::string option = unknown_option(problem.options); !option.empty())
-        return option +
-               ", only solutions at the ends of steps (step_control = fixed, adaptive "
-               "or auto, mixity_rule = converged or frozen, reduction = auto, condensed or iterated)";
+        return option + ", only mixity_rule = converged or frozen, and reduction = auto, condensed or iterated";
     const std::string instead = ": use kinematics = linear";
     if (problem.engine != nullptr) return "bodies that an engine of the host solves" + instead;
     for (std::int32_t body = 0; body < mesh.body_count(); ++body)

@@ -22,7 +22,6 @@ constexpr double located_share = 0.02;
 // Returns what following the load needs and these options lack: local minimisers from part to part, whose damage may be
 // eliminated. Null: nothing.
 const char* lacking(const Options& options) {
-    if (options.kinematics != "linear") return "kinematics = linear";
     if (options.solution != "local") return "solution = local";
     if (options.mixity_rule != "converged") return "mixity_rule = converged";
     if (options.minimisation == "alternate") return "an accelerated minimisation (minimisation = auto)";
@@ -63,7 +62,7 @@ StepControl used_step_control(const Problem& problem, const Options& options, co
     const std::string why = chosen ? why_whole(problem, options, whole) : std::string();
     const std::string name = !chosen ? options.step_control : why.empty() ? "load" : "fixed";
     std::string reason = text("option step_control = ", options.step_control, why.empty() ? "" : ": ", why);
-    const double share = located(options, chosen, whole);
+    const double share = located(options, chosen || options.step_control == "load", whole);
     if (share > 0.0) reason += text("; jumps are located to ", share, " of a step");
     return {name, reason, used_path_step(options, name == "load"), share};
 }

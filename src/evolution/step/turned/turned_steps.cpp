@@ -12,8 +12,10 @@
 #include "evolution/contact/contact.hpp"
 #include "evolution/increment/step_account.hpp"
 #include "evolution/step/jump_event.hpp"
+#include "evolution/step/load_path.hpp"
 #include "evolution/step/turned/balanced.hpp"
 #include "evolution/step/turned/mixing.hpp"
+#include "evolution/step/turned/path_within.hpp"
 #include "linalg/dense/dense.hpp"
 
 namespace delam {
@@ -47,17 +49,6 @@ std::int64_t most_moved(std::span<const double> mode, int dimension) {
 // Returns what a linear step lowers, F L.
 double energy_of(const State& state) { return state.ledger.energy() + state.ledger.dissipated; }
 
-// True if a stiffness that is not definite may be the reason.
-bool unstable(const Error& error) { return error.status() == DELAM_ERROR_NUMERICAL || error.status() == DELAM_LIMIT; }
-
-// Adds loose bodies to those of a point; true if there are more then.
-bool loosens(TurnedPoint& about, const std::vector<std::uint8_t>& loose) {
-    const std::vector<std::uint8_t> before = about.loose;
-    if (about.loose.empty()) about.loose = loose;
-    for (std::size_t b = 0; b < loose.size(); ++b) about.loose[b] = std::max(about.loose[b], loose[b]);
-    return about.loose != before;
-}
-
 }  // namespace
 
 TurnedSteps::TurnedSteps(const Problem& problem, Monitor& monitor, const TurnedOperator& op, const PairLaws& pairs,
@@ -68,17 +59,8 @@ TurnedSteps::TurnedSteps(const Problem& problem, Monitor& monitor, const TurnedO
       pairs_(pairs),
       graph_(problem.mesh->interfaces()),
       loose_(problem, op, pairs, contact),
-      linear_(problem, monitor, op) {}
-
-TurnedPoint TurnedSteps::point_of(const State& state) const {
-    TurnedPoint point = TurnedPoint::of(state.memory, state.response.multipliers, state.theta);
-    point.loose = loose_.of(state);
-    return point;
-}
-
-TurnedPoint TurnedSteps::point_at(const State& state, Stresses stresses) const {
-    return {state.response.multipliers, {}, {}, stresses, state.theta, loose_.of(state)};
-}
+      linear_(problem, monitor, op),
+      tangents_(problem, op, loose_, linear_) {}
 
 // Where stresses make a linear scene unstable, as on the way of a large step, they are left out of its stiffness.
 // Bodies that come off in a step have held on to others before, and the forces there go.
@@ -90,7 +72,7 @@ Stepper::Result TurnedSteps::solve_about(TurnedPoint& about, const std::vector<d
             Stepper& stepper = linear_.about(about, at, row_force);
             Stepper::Result next = solve(stepper, from);
             loose = loose_.translating(next.state);
-            if (!loosens(about, loose)) return next;
+            if (!about.loosen(loose)) return next;
         } catch (const Error& error) {
             if (!unstable(error)) throw;
             if (about.stresses == Stresses::count) {
@@ -98,53 +80,10 @@ Stepper::Result TurnedSteps::solve_about(TurnedPoint& about, const std::vector<d
                 continue;
             }
             loose = loose_.all();
-            if (!loosens(about, loose)) throw;
+            if (!about.loosen(loose)) throw;
         }
         row_force = loose_.without(loose, row_force);
     }
-}
-
-// A derivative knows nothing of the forces at which the scene is linearised. Those of rounding would push loose bodies.
-Stepper& TurnedSteps::without_loads(const TurnedPoint& about, const State& state) const {
-    Stepper& stepper = linear_.about(about, state.response.multipliers, state.response.force);
-    return about.loose.empty() ? stepper : linear_.under(std::vector<double>(op_.dofs(), 0.0));
-}
-
-std::vector<double> TurnedSteps::tangent_about(const TurnedPoint& about, const State& state, const State& at) const {
-    try {
-        return of_patterns(without_loads(about, state).tangent(at));
-    } catch (const Error& error) {
-        if (!unstable(error)) throw;
-        return {};
-    }
-}
-
-// The change of the reactions at fixed damage and contact exists where the stiffness under all stresses is positive
-// definite. Faces that touch without a force hold nothing: a flat strip would stay flat. Where nothing but they holds a
-// part, whatever the stresses, they do.
-TurnedSteps::Known TurnedSteps::know(const State& state) const {
-    Known known{
-        state.response.multipliers, state.response.force, state.adhesion, state.closed, point_of(state), {}, {}};
-    State at = extended(state, problem_.patterns.size());
-    at.theta.back() = 1.0;
-    State open = at;
-    const double load = op_.load_size(state.theta, state.response);
-    const auto dim = index(problem_.mesh->dimension());
-    for (std::size_t p = 0; p < open.closed.size(); ++p)
-        if (!(-state.response.force[p * dim] > problem_.options.limits.turned_balance * load)) open.closed[p] = 0;
-    known.held = open.closed;
-    if (known.about.stresses == Stresses::count) known.tangent = tangent_about(known.about, state, open);
-    if (!known.tangent.empty()) return known;
-    known.about = point_at(state);
-    known.tangent = tangent_about(known.about, state, open);
-    if (!known.tangent.empty()) return known;
-    const TurnedPoint unstressed = point_at(state, Stresses::left_out);
-    if (open.closed != at.closed && tangent_about(unstressed, state, open).empty()) {
-        known.held = at.closed;
-        known.tangent = tangent_about(known.about, state, at);
-    }
-    if (known.tangent.empty()) known.about = unstressed;
-    return known;
 }
 
 [[noreturn]] void TurnedSteps::refuse_buckling(double time) {
@@ -177,7 +116,7 @@ TurnedSteps::Begin TurnedSteps::begin(const State& before) const {
     from.displacement.resize(op_.dofs(), 0.0);
     from.row_force.resize(index(problem_.jump_count()), 0.0);
     const std::vector<double> unloaded(problem_.patterns.size(), 0.0);
-    from.about = first ? TurnedPoint{from.displacement, {}, {}, Stresses::count, unloaded} : point_of(before);
+    from.about = first ? TurnedPoint{from.displacement, {}, {}, Stresses::count, unloaded} : tangents_.point_of(before);
     if (!first) from.row_force = loose_.pressing(from.about.loose, before);
     return from;
 }
@@ -232,7 +171,7 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
             next.converged = next.converged || loose_.rightly_touches(next.state);
         // The next step begins with this stiffness, unless that of the result differs.
         const bool near = own && definite && off < limits.turned_kept * off_before && about.theta == next.state.theta;
-        next.state.memory = (near ? about : point_at(next.state)).numbers();
+        next.state.memory = (near ? about : tangents_.point_at(next.state)).numbers();
         if (balanced || n == limits.turned_most) {
             next.converged = next.converged && balanced;
             return next;
@@ -289,7 +228,7 @@ double TurnedSteps::critical_share(const State& before, const BucklingMode& mode
 
 BucklingMode TurnedSteps::mode_of(const State& state, std::span<const std::uint8_t> held) const {
     const std::vector<double>& place = state.response.multipliers;
-    const TurnedPoint about = point_at(state, Stresses::left_out);
+    const TurnedPoint about = tangents_.point_at(state, Stresses::left_out);
     const Stepper& unstressed = linear_.about(about, place, state.response.force);
     const std::vector<SparseMatrix> soft = op_.softening(state.theta, place, about.loose);
     const Springs springs{spring_stiffness(pairs_, state.adhesion), held_rows(unstressed.contact(), held)};
@@ -305,22 +244,6 @@ BucklingMode TurnedSteps::mode_of(const State& state, std::span<const std::uint8
         return op.displacement(theta, response);
     };
     return buckling_mode(op_.dofs(), solve, [&](std::span<const double> v) { return op_.multiply_bodies(soft, v); });
-}
-
-// Faces that touch without a force count as open, until a way along the mode has led back: then they hold the bodies.
-bool TurnedSteps::held_by_faces(const State& state, Known& known) const {
-    State at = extended(state, problem_.patterns.size());
-    at.theta.back() = 1.0;
-    const std::vector<std::uint8_t> touching =
-        touching_pairs(linear_.stepper().contact(), op_, scene_size(*problem_.mesh), state.response.jump);
-    for (std::size_t p = 0; p < at.closed.size(); ++p)
-        if (touching[p] != 0) at.closed[p] = 1;
-    const TurnedPoint about = point_at(state);
-    known.tangent = tangent_about(about, state, at);
-    if (known.tangent.empty()) return false;
-    known.about = about;
-    known.held = at.closed;
-    return true;
 }
 
 double TurnedSteps::leave_unstable(const State& before, const Solve& solve, Stepper::Result& result,
@@ -344,7 +267,7 @@ double TurnedSteps::leave_unstable(const State& before, const Solve& solve, Step
         if (fall) lower = iterate(before, begin_at(*fall, top), solve, definite);
         const double level = energy_of(top), rounding = limits.minimise_energy_rounding * std::abs(level);
         if (!fall || (lower.converged && !(energy_of(lower.state) < level - rounding))) {
-            if (!held_by_faces(top, known)) refuse_buckling(top.time);
+            if (!tangents_.held_by_faces(top, known)) refuse_buckling(top.time);
             break;
         }
         if (buckling.modes == 0) {
@@ -358,7 +281,7 @@ double TurnedSteps::leave_unstable(const State& before, const Solve& solve, Step
         result = std::move(lower);
         result.state.effort = effort;
         if (!result.converged) break;
-        known = know(result.state);
+        known = tangents_.know(result.state);
     }
     const State& next = result.state;
     // Where the branch begins at the critical load, what the energy falls by is the work that it does not take. What
@@ -380,11 +303,32 @@ Stepper::Result TurnedSteps::initial(double time) const {
     return result;
 }
 
-Stepper::Result TurnedSteps::lowest_state(const State& before, double time, double stride, Stepper::Result best) const {
-    constexpr double none = std::numeric_limits<double>::infinity();
-    const auto at_rest = [&](const State& state) -> Begin {
-        return {state.response.multipliers, state.response.force, point_at(state), true, none, none};
+// Damage and displacements of the end depend little on how the step has come there, so that this takes one linear step
+// or two.
+PathWithin TurnedSteps::follow_load(const State& before, double time, Stepper::Result& result) const {
+    if (!follows_load(problem_.options) || !result.converged || result.state.adhesion == before.adhesion ||
+        linear_.stepper().one_mode(before, result.state))
+        return {};
+    PathWithin within;
+    const Solve solve = [&](Stepper& stepper, const State& from) {
+        return follow_within(stepper, graph_, from, time, problem_.options, within);
     };
+    bool definite = false;
+    Stepper::Result followed = iterate(before, at_rest(result.state), solve, definite);
+    Effort effort = result.state.effort;
+    effort.add(followed.state.effort);
+    const bool kept = followed.converged && definite;
+    if (kept) result = std::move(followed);
+    result.state.effort = effort;
+    return kept ? within : PathWithin{};
+}
+
+TurnedSteps::Begin TurnedSteps::at_rest(const State& balance) const {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    return {balance.response.multipliers, balance.response.force, tangents_.point_at(balance), true, none, none};
+}
+
+Stepper::Result TurnedSteps::lowest_state(const State& before, double time, double stride, Stepper::Result best) const {
     const LowerStates states{[&](const State& balance) {
                                  const Begin from = at_rest(balance);
                                  const State start = extended(before, problem_.patterns.size());
@@ -413,16 +357,18 @@ Stepper::Result TurnedSteps::lowest_state(const State& before, double time, doub
 // and R_k-1 d + 1/2 d C_k-1 d at the one before, to third order in d.
 Stepper::Result TurnedSteps::step(const State& before, double time, double stride) const {
     const std::vector<double> d = difference(problem_.factors(time), before.theta);
-    Known known = known_ && known_->of(before) ? std::move(*known_) : know(before);
+    Known known = known_ && known_->of(before) ? std::move(*known_) : tangents_.know(before);
     known_.reset();
     const double upper_change = half_square(known.tangent, d);
     const Solve solve = [&](Stepper& stepper, const State& from) { return stepper.step(from, time, {}, stride); };
     bool definite = false;
     Stepper::Result result = iterate(before, begin(before), solve, definite);
+    const PathWithin within = follow_load(before, time, result);
     if (problem_.options.solution == "energetic") result = lowest_state(before, time, stride, std::move(result));
-    known = know(result.state);
+    known = tangents_.know(result.state);
     double work = 0.5 * (dot(d, before.response.conjugate) + dot(d, result.state.response.conjugate));
     if (result.converged && !known.stable()) work = leave_unstable(before, solve, result, known);
+    if (result.state.outcome.buckling.modes == 0) work += within.beyond;
     State& next = result.state;
     next.memory = known.about.numbers();
     const double lower_change = half_square(known.tangent, d);
@@ -443,7 +389,8 @@ Stepper::Result TurnedSteps::step(const State& before, double time, double strid
     // A state that is as high at the load before as the one before may have come about without a release: what the
     // trapezoidal rule leaves open then is its own error.
     const bool falls = ledger.increment < ledger.lower && damages_abruptly(*rule, next.adhesion);
-    next.outcome.released = falls ? std::max(0.0, work - ledger.increment) : next.outcome.buckling.released;
+    next.outcome.released =
+        falls ? std::max(0.0, work - ledger.increment) : within.released + next.outcome.buckling.released;
     ledger.work = before.ledger.work + work;
     ledger.released = before.ledger.released + next.outcome.released;
     known_ = std::move(known);
@@ -465,27 +412,10 @@ Stepper::Result TurnedSteps::equilibrate(const State& before, double time, std::
     return result;
 }
 
-std::vector<double> TurnedSteps::of_patterns(std::span<const double> matrix) const {
-    const std::size_t patterns = problem_.patterns.size();
-    std::vector<double> own;
-    for (std::size_t i = 0; i < patterns; ++i)
-        for (std::size_t j = 0; j < patterns; ++j) own.push_back(matrix[i * (patterns + 1) + j]);
-    op_.add_strain_energy(own);
-    return own;
-}
-
-std::vector<double> TurnedSteps::tangent(const State& state) const {
-    State own = extended(state, problem_.patterns.size());
-    own.theta.back() = 1.0;
-    return of_patterns(without_loads(point_at(state), state).tangent(own));
-}
+std::vector<double> TurnedSteps::tangent(const State& state) const { return tangents_.of_loads(state); }
 
 std::vector<double> TurnedSteps::step_tangent(const State& before, const State& state) const {
-    State own = extended(state, problem_.patterns.size());
-    own.theta.back() = 1.0;
-    const State from = extended(before, problem_.patterns.size());
-    Stepper& stepper = without_loads(point_at(state), state);
-    return of_patterns(linear_.derived([&] { return stepper.step_tangent(from, own); }));
+    return tangents_.of_step(before, state);
 }
 
 void delegate_to_turned_steps(Stepper& stepper, const Problem& problem, Monitor& monitor) {

@@ -9,6 +9,9 @@
 // where the iterates do not come to rest (pairs of an unresolved process zone, which break in one and hold in the
 // next), later ones begin at the damage of the lowest. Where the true energy rises, half of the way is taken.
 //
+// What a step of mixed mode dissipates depends on its path: once its forces balance, it is followed along its load in
+// the scene linearised there (path_within.hpp), until they balance again.
+//
 // A balance whose stiffness under its stresses is not positive definite is no minimum: the bodies buckle. The step then
 // goes on along the mode that the stresses soften most, to where the true energy has fallen, and comes to its balance
 // from there. (M. Crisfield, Non-linear Finite Element Analysis 2, 1997, section 21.10, on branches.)
@@ -26,6 +29,8 @@
 #include "evolution/step/turned/linearised_scene.hpp"
 #include "evolution/step/turned/loose_parts.hpp"
 #include "evolution/step/turned/lower_states.hpp"
+#include "evolution/step/turned/path_within.hpp"
+#include "evolution/step/turned/turned_tangents.hpp"
 #include "reduction/turned/buckling_mode.hpp"
 #include "reduction/turned/turned_operator.hpp"
 #include "scene/problem.hpp"
@@ -48,28 +53,7 @@ private:
     using Stresses = TurnedCell::Stresses;
     // A step in a linear scene from a state of such a scene.
     using Solve = std::function<Stepper::Result(Stepper& stepper, const State& from)>;
-    // A state with the change of its reactions with the loads, [patterns][patterns]; empty: the stiffness under the
-    // stresses is not positive definite.
-    struct Known {
-        std::vector<double> displacement, row_force, adhesion;
-        std::vector<std::uint8_t> closed;
-        TurnedPoint about;
-        std::vector<double> tangent;
-        std::vector<std::uint8_t> held;  // [pairs] the contact that counts
-        bool stable() const { return about.stresses == Stresses::count; }
-        bool of(const State& state) const {
-            return displacement == state.response.multipliers && row_force == state.response.force &&
-                   adhesion == state.adhesion && closed == state.closed && !displacement.empty();
-        }
-    };
-    Known know(const State& state) const;
-    // Return where a state was linearised, and the point at its place under its own stresses.
-    TurnedPoint point_of(const State& state) const;
-    TurnedPoint point_at(const State& state, Stresses stresses = Stresses::count) const;
-    // Returns the stepper of the scene linearised about a point and a state, to derive from.
-    Stepper& without_loads(const TurnedPoint& about, const State& state) const;
-    // Returns the tangent of a state at another contact set, in the scene about a point; empty: there is none.
-    std::vector<double> tangent_about(const TurnedPoint& about, const State& state, const State& at) const;
+    using Known = TurnedTangents::Known;
     // Says where linear steps begin: displacements and forces of rows, the energy that they shall not exceed, with what
     // is dissipated, and the unbalanced force over the load.
     struct Begin {
@@ -81,27 +65,25 @@ private:
     };
     Begin begin(const State& before) const;
     Begin begin_at(const EnergyFall& fall, const State& state) const;
+    Begin at_rest(const State& balance) const;
     // definite: out, whether the stiffness of the last linear step has all stresses.
     Stepper::Result iterate(const State& before, Begin from, const Solve& solve, bool& definite) const;
     // Leads a result that is in balance, but not stable, to a stable one. known: in, out; of the result. Returns the
     // work of the reactions on the way, F L.
     double leave_unstable(const State& before, const Solve& solve, Stepper::Result& result, Known& known) const;
+    // Follows a step along its load where its result has damaged pairs of different toughness.
+    PathWithin follow_load(const State& before, double time, Stepper::Result& result) const;
     // Returns the lowest state of a step that a search finds, from its balance.
     Stepper::Result lowest_state(const State& before, double time, double stride, Stepper::Result best) const;
     BucklingMode mode_of(const State& state, std::span<const std::uint8_t> held) const;
     // The share of a step, from a stable state to one that buckles along this mode, at which the bodies begin to.
     double critical_share(const State& before, const BucklingMode& mode, const State& state) const;
-    // True if the faces that touch make a state stable, which is then known as such.
-    bool held_by_faces(const State& state, Known& known) const;
     // about: out, where the scene that has given the result was linearised.
     Stepper::Result solve_about(TurnedPoint& about, const std::vector<double>& at, std::vector<double> row_force,
                                 const State& from, const Solve& solve) const;
     [[noreturn]] static void refuse_buckling(double time);
     // Replaces what the linear scene says of a state by what is true at its displacements.
     void make_true(State& state) const;
-    // Returns a tangent of the linear scene without the row and the column of the additional pattern, and with the
-    // energy that eigenstrains store without displacements.
-    std::vector<double> of_patterns(std::span<const double> matrix) const;
 
     const Problem& problem_;
     Monitor& monitor_;
@@ -110,6 +92,7 @@ private:
     PairGraph graph_;
     LooseParts loose_;
     mutable LinearisedScene linear_;
+    TurnedTangents tangents_;
     mutable std::optional<Known> known_;  // the last state that a step has led to
 };
 
