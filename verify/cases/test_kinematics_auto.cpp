@@ -19,9 +19,9 @@ using reference::Solver;
 // Rotations become large in the step in which small ones leave out too much, which begins at the state before. Steps
 // before it have the digits of small rotations, later ones the forces of large ones.
 TEST(rotations_become_large_where_they_must) {
-    const Beam beam{80.0, 0.5, 40.0, 160, 2};
-    const Scene small = double_cantilever(beam, 20.0, "linear"), large = double_cantilever(beam, 20.0),
-                either = double_cantilever(beam, 20.0, "auto");
+    const Beam beam{60.0, 0.5, 30.0, 240, 2};  // eight pairs in the process zone
+    const Scene small = double_cantilever(beam, 12.0, "linear"), large = double_cantilever(beam, 12.0),
+                either = double_cantilever(beam, 12.0, "auto");
     Solver linear(small, 0.0), turned(large, 0.0), chosen(either, 0.0);
     bool grown = false;
     std::vector<std::uint8_t> saved;

@@ -70,7 +70,7 @@ Ended bent(const Case& of, const char* control, int steps) {
 
 }  // namespace
 
-// Few steps dissipate what many do, and their books close; whole steps record all pairs at the load of the end.
+// Few steps dissipate what many do, and their energies balance; whole steps record all pairs at the load of the end.
 LOOP_TEST(few_steps_dissipate_what_many_do, 0, 3) {
     const Case& of = cases_of[loop];
     const Ended few = bent(of, "auto", 5), many = bent(of, "auto", 12), whole = bent(of, "fixed", 5);

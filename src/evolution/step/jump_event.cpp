@@ -117,12 +117,14 @@ bool far(const PairLaws& pairs, const PairGraph& graph, const State& before, con
     return advance > 0.0 && advance > regular_advance(pairs, graph, before, after, interface);
 }
 
-// True if a step that damages pairs leaves more open than this, and than a negligible share of the energy.
-bool exceeds(const State& before, const State& after, double allowed) {
+// Holds what a step dissipates, and what its work leaves open.
+struct Account {
+    double dissipated, open;
+};
+Account account(const State& before, const State& after) {
     const Ledger &a = before.ledger, &b = after.ledger;
     const double dissipated = b.dissipated - a.dissipated;
-    const double open = b.work - a.work - (b.energy() - a.energy()) - dissipated - (b.released - a.released);
-    return dissipated > 0.0 && std::abs(open) > std::max(allowed, released_share * b.scale());
+    return {dissipated, b.work - a.work - (b.energy() - a.energy()) - dissipated - (b.released - a.released)};
 }
 
 bool loses_load(const State& before, const State& after) {
@@ -150,12 +152,16 @@ bool jumps(const PairLaws& pairs, const PairGraph& graph, const State& before, c
 }
 
 bool leaves_open(const State& before, const State& after) {
-    const double dissipated = after.ledger.dissipated - before.ledger.dissipated;
-    return exceeds(before, after, open_share * dissipated);
+    const auto [dissipated, open] = account(before, after);
+    return dissipated > 0.0 &&
+           std::abs(open) > std::max(open_share * dissipated, released_share * after.ledger.scale());
 }
 
 bool leaves_open(const State& before, const State& after, double accuracy) {
-    return exceeds(before, after, accuracy * after.ledger.dissipated);
+    const auto [dissipated, open] = account(before, after);
+    const double least = open_share * after.ledger.scale();
+    return dissipated > 0.0 && std::abs(open) > accuracy * std::max(dissipated, least) &&
+           std::abs(after.ledger.defect()) > accuracy * std::max(after.ledger.dissipated, least);
 }
 
 bool hides_jump(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {

@@ -33,7 +33,8 @@ bool jumps(const PairLaws& pairs, const PairGraph& graph, const State& before, c
 // True if a step damages pairs and its work, that of the reactions at both ends, differs much from what it stores,
 // dissipates and releases.
 bool leaves_open(const State& before, const State& after);
-// True if that is more than this share of all that has been dissipated.
+// True if that is more than this share of what it dissipates, and all steps together leave more than this share open of
+// all that is dissipated.
 bool leaves_open(const State& before, const State& after, double accuracy);
 // True if a step may hold a jump of which its energies do not tell: its work is that of the reactions at both ends, and
 // differs much from what it stores, dissipates and releases, or its load falls to less than half, as a front moves by
