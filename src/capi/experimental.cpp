@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "capi/handle/handles.hpp"
+#include "evolution/analysis/plan.hpp"
 #include "evolution/analysis/solver.hpp"
 #include "mesh/cell_type.hpp"
 #include "mesh/faces.hpp"
@@ -212,6 +213,8 @@ int32_t delam_experimental_solver_follow(delam_solver* solver, int64_t interface
         const std::vector<std::int64_t> list = require_interfaces(solver->core->problem(), interface_count, interfaces);
         require_pointer(key, "key");
         const std::int64_t index = solver->core->follow(list, key);
+        std::vector<PlanItem> plan = plan_of(*solver->core);
+        solver->earlier_plans.push_back(std::exchange(solver->plan, std::move(plan)));
         if (parameter != nullptr) *parameter = index;
     });
 }

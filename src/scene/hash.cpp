@@ -186,7 +186,8 @@ void add_loads(Fnv& fnv, const Problem& problem) {
 // Following the load, which came later, hashes like `fixed`: a state of one may go on under the other.
 std::uint64_t hash(const Options& given, std::uint64_t seed, std::span<const Option> table) {
     Fnv fnv{seed};
-    const Options initial;
+    Options initial;
+    initial.kinematics = "linear";  // its first default
     Options options = given;
     if (options.step_control == "auto" || options.step_control == "load") options.step_control = "fixed";
     for (const Option& row : table) {

@@ -32,7 +32,7 @@ struct Options {
 // The ways in which an option enters the hash of a scene.
 enum class Hashed {
     always,     // its value, in the order of the rows
-    where_set,  // key and value where it is not the default, so that scenes without it hash as they did before it came
+    where_set,  // key and value where it is not its first default: scenes hash as they did before it came
     never       // results do not depend on it
 };
 

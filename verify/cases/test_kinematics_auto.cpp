@@ -73,10 +73,33 @@ TEST(rotations_that_cannot_become_large) {
         plan.find("large rotations: left out, option kinematics = auto: they do not know backtracking = on") !=
             std::string::npos,
         plan);
-    const std::int64_t interface = 0;
-    cases::expect(
-        delam_experimental_solver_follow(solver.get(), 1, &interface, "normal_toughness", nullptr) == DELAM_ERROR_STATE,
-        "sensitivities are followed");
+}
+
+// So do those whose sensitivities are followed, with all digits of small rotations.
+TEST(rotations_stay_small_where_sensitivities_are_followed) {
+    std::vector<std::vector<double>> found;
+    for (const char* kinematics : {"linear", "auto"}) {
+        const Scene scene = double_cantilever({30.0, 0.5, 10.0, 60, 2}, 3.0, kinematics);
+        Solver solver(scene, 0.0);
+        const std::int64_t interface = 0;
+        scene.require(delam_experimental_solver_follow(solver.get(), 1, &interface, "normal_toughness", nullptr),
+                      "delam_experimental_solver_follow");
+        for (int k = 1; k <= 4; ++k) {
+            solver.step(k / 4.0);
+            solver.commit();
+        }
+        cases::expect_below(0.2, solver.value("rotation_max"), "rotation");
+        std::vector<double>& own = found.emplace_back(1);
+        scene.require(delam_experimental_solver_sensitivity(solver.get(), 1, own.data(), nullptr),
+                      "delam_experimental_solver_sensitivity");
+        for (const char* key : {"reaction:load", "dissipated", "stored_bulk"}) own.push_back(solver.value(key));
+        const std::string plan = delam_solver_plan(solver.get());
+        const bool told = plan.find("they do not know sensitivities") != std::string::npos;
+        cases::expect(told == (std::string(kinematics) == "auto"), plan);
+    }
+    cases::expect(found[0][0] != 0.0, "the toughness matters, or nothing was tested");
+    for (std::size_t i = 0; i < found[0].size(); ++i)
+        cases::expect_near(found[1][i], found[0][i], 0.0, std::abs(found[0][i]), "number " + std::to_string(i));
 }
 
 // Iterated operators have unknowns of their own, which bodies that rotate do not know.

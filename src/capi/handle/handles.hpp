@@ -101,6 +101,7 @@ struct delam_solver : delam::Handle<delam::magic_solver, delam::Solver> {
     delam::Stages stages;                  // replaces the core where supports begin or end
     std::vector<std::string> value_names;  // texts returned by delam_solver_value_name and delam_solver_plan
     std::vector<delam::PlanItem> plan;     // owns the texts that delam_solver_plan_item returns
+    std::vector<std::vector<delam::PlanItem>> earlier_plans;  // the host may still hold their texts
     std::string plan_words;
     mutable std::string option;  // returned by delam_solver_option
 };

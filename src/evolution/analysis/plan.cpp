@@ -299,11 +299,11 @@ std::optional<PlanItem> stages_of(const Problem& problem) {
         "-"};
 }
 
-// Says what may end a stage. rotates: rotations are large in it.
-void add_stages(std::vector<PlanItem>& items, const Problem& whole, bool rotates) {
+// Says what may end a stage. rotates: rotations are large in it. follows: sensitivities are followed.
+void add_stages(std::vector<PlanItem>& items, const Problem& whole, bool rotates, bool follows = false) {
     if (auto stages = stages_of(whole)) items.push_back(std::move(*stages));
     if (!may_turn(whole) || rotates) return;
-    const std::string unknown = unknown_to_rotations(whole);
+    const std::string unknown = follows ? "sensitivities" : unknown_to_rotations(whole);
     items.push_back({"large rotations", left_out,
                      unknown.empty() ? std::string("option kinematics = auto: from the step in which small rotations "
                                                    "leave out too much, and which is then taken once more")
@@ -320,7 +320,8 @@ std::vector<PlanItem> plan_of(const Solver& solver) {
     std::vector<PlanItem> items =
         items_of({solver.problem(), solver.stepper().reduction(), op.description(), "", op.prescribed_rows(),
                   solver.observer().pairs().gradient, solver.control()});
-    if (solver.stage() != nullptr) add_stages(items, *solver.stage()->whole, solver.stage()->stage.rotates);
+    const bool follows = solver.states().committed().sensitivity.known();
+    if (solver.stage() != nullptr) add_stages(items, *solver.stage()->whole, solver.stage()->stage.rotates, follows);
     return items;
 }
 

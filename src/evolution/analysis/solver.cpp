@@ -264,7 +264,7 @@ Outcome Solver::advance(double time) {
     require_sound(problem_, pending.state, result.converged);
     for (const State& revised : pending.revised) require_sound(problem_, revised, result.converged);
     warned_of_mixity_ = warned_of_mixity_ || stepper_.warn(pending.state);
-    if (may_turn_ && outgrows(pending.state)) {
+    if (may_turn_ && followed_.empty() && outgrows(pending.state)) {
         states_.propose(std::move(pending));
         observer_.show(states_.present());
         return {DELAM_OK, "", true};
@@ -403,9 +403,8 @@ void Solver::take_whole_steps() {
 std::int64_t Solver::follow(std::span<const std::int64_t> interfaces, const std::string& key) {
     if (turns(problem_))
         fail(DELAM_ERROR_STATE, "sensitivities are not followed with kinematics = ", problem_.options.kinematics);
-    if (stage_ && may_turn(*stage_->whole))
-        fail(DELAM_ERROR_STATE, "sensitivities are not followed with kinematics = auto: use linear");
-    if (stage_) fail(DELAM_ERROR_STATE, "sensitivities are not followed where supports begin or end");
+    if (stage_ && !changes_of(*stage_->whole).empty())
+        fail(DELAM_ERROR_STATE, "sensitivities are not followed where supports begin or end");
     const State& committed = states_.committed();
     if (states_.pending() != nullptr || committed.step != 0)
         fail(DELAM_ERROR_STATE, "sensitivities are followed from the initial state on: there are steps already");

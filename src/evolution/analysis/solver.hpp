@@ -84,6 +84,7 @@ public:
     // From now on, step_control = auto takes steps whole, for a host that iterates.
     void take_whole_steps();
     // From the initial state on, follows the derivatives by a number of the laws of these interfaces; its index.
+    // Rotations then stay small, whatever kinematics = auto finds.
     std::int64_t follow(std::span<const std::int64_t> interfaces, const std::string& key);
     // Returns dE/dtheta of the state that is shown by the parameters that are followed, [patterns][parameters].
     std::vector<double> sensitivities() const;

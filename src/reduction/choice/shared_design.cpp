@@ -10,7 +10,7 @@ namespace delam {
 
 bool shares_bodies(const Problem& problem, const Design& other) {
     const Options& options = problem.options;
-    return other.bulk != nullptr && problem.engine == nullptr && options.kinematics == "linear" &&
+    return other.bulk != nullptr && problem.engine == nullptr && options.kinematics != "corotational" &&
            options.subdomains == 0 && (options.reduction == "auto" || options.reduction == "condensed") &&
            hash_of_bodies(problem) == hash_of_bodies(other.bulk->system().problem());
 }

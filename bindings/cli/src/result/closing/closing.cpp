@@ -10,12 +10,10 @@ namespace cli {
 namespace {
 
 // True if bisection locates each jump of a step, so that what falls without a jump falls steadily.
-bool locates_jumps(const Model& model) {
-    const auto is = [&](const char* key, std::string_view value) {
-        const char* given = delam_problem_option(model.problem.get(), key);
-        return given != nullptr && given == value;
-    };
-    return is("kinematics", "corotational") && is("step_control", "auto");
+bool locates_jumps(const Model& model, const delam_solver* solver) {
+    const char* control = delam_problem_option(model.problem.get(), "step_control");
+    return control != nullptr && std::string_view(control) == "auto" &&
+           option_text(solver, "kinematics") == "corotational";
 }
 
 }  // namespace
@@ -30,7 +28,7 @@ Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene,
     out.search = search_limits_of(rows, option_number(solver, "search_tolerance"));
     out.load_drops = load_drops_of(rows, out.jumps, scene);
     out.follows_load = option_text(solver, "step_control") == "load";
-    out.locates_jumps = locates_jumps(model);
+    out.locates_jumps = locates_jumps(model, solver);
     out.small = small_rotations_of(model, solver, scene, of_end);
     out.estimate_tolerance = option_number(solver, "backtracking_tolerance");
     out.estimate_violated = violated_steps(rows, out.estimate_tolerance);
