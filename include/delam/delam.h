@@ -1355,9 +1355,10 @@ DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int6
  *   strain, stress  [6] in the order xx, yy, zz, xy, yz, zx
  *   *volume         in L2 or L3
  * Shear strains are doubled, and the strain includes eigenstrains. In 2D the out-of-plane components follow from the
- * plane assumption. The averages do not include the opening of interfaces between bodies. Bodies without cells have no
- * volume; all results are 0 if no body has cells. The function recovers the displacements, unless the bodies are
- * condensed: then the averages follow from jumps and loads, which the first call prepares with a few sparse solves.
+ * plane assumption. With large rotations, strains and stresses are those in the frames of the cells, turned with them.
+ * The averages do not include the opening of interfaces between bodies. Bodies without cells have no volume; all
+ * results are 0 if no body has cells. The function recovers the displacements, unless the bodies are condensed: then
+ * the averages follow from jumps and loads, which the first call prepares with a few sparse solves.
  * [unit volume L2 or L3, strain 1, stress F/L2; null volume, strain, stress; status cancelled, argument; source none;
  * since 0.1] */
 DELAM_API int32_t delam_solver_average(const delam_solver *solver, int32_t body, double *volume, double *strain,

@@ -25,7 +25,8 @@ struct CellIntegral {
 };
 
 // Returns the integrals of the strains of displacements [nodes][dimension].
-std::array<double, 6> strain_of(const CellIntegral& cell, std::span<const double> displacement, std::size_t dim) {
+std::array<double, 6> integrated_strain(const CellIntegral& cell, std::span<const double> displacement,
+                                        std::size_t dim) {
     std::array<double, 6> strain{};
     for (std::size_t k = 0; k < displacement.size(); ++k)
         for (std::size_t j = 0; j < dim; ++j) {
@@ -100,7 +101,7 @@ std::array<double, 6> product(const SpaceElasticity& m, const std::array<double,
     return out;
 }
 
-// As rotated_strain(), whose shear strains are doubled.
+// Returns stresses turned as rotated_strain() turns strains, whose shear is doubled.
 std::array<double, 6> rotated_stress(std::array<double, 6> stress, const std::array<double, 9>& axes) {
     for (std::size_t i = 3; i < 6; ++i) stress[i] *= 2.0;
     stress = rotated_strain(stress, axes);
@@ -211,7 +212,7 @@ VolumeAverage volume_average(const Mesh& mesh, std::span<const BodyModel> models
         const bool free = mesh.dimension() == 2 && models[own].plane == Plane::stress;
         std::array<double, 6> prescribed{};
         if (!eigenstrain.empty()) prescribed = product(turned(elasticity[own].axes(c)), eigenstrain[own]);
-        std::array<double, 6> strain = strain_of(cell, displacement(c), index(mesh.dimension()));
+        std::array<double, 6> strain = integrated_strain(cell, displacement(c), index(mesh.dimension()));
         for (std::size_t i = 0; i < 6; ++i) strain[i] -= cell.volume * prescribed[i];
         strain = product(elastic_strain(space, free), strain);
         const std::array<double, 6> stress = rotated_stress(product(space, strain), axes(c));

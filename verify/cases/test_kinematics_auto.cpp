@@ -57,8 +57,8 @@ TEST(rotations_become_large_where_they_must) {
     cases::expect(grown && chosen.value("dissipated") > 0.0, "the crack grows with large rotations");
     for (const char* key : {"stored_bulk", "stored_interface", "dissipated"})
         cases::expect_near(chosen.value(key), turned.value(key), 1e-5, turned.value("work"), key);
-    // Work is that of reactions at the ends of steps: the last digits decide in which of two steps a pair comes apart.
-    cases::expect_near(chosen.value("work"), turned.value("work"), 2e-3, turned.value("work"), "work");
+    // Steps with small rotations have other parts than those with large ones.
+    cases::expect_near(chosen.value("work"), turned.value("work"), 1e-4, turned.value("work"), "work");
 }
 
 // Scenes that large rotations do not know stay as they are, and the plan says why.

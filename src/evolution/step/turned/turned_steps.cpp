@@ -313,14 +313,19 @@ PathWithin TurnedSteps::follow_load(const State& before, double time, Stepper::R
     const Solve solve = [&](Stepper& stepper, const State& from) {
         return follow_within(stepper, graph_, from, time, problem_.options, within);
     };
-    bool definite = false;
-    Stepper::Result followed = iterate(before, at_rest(result.state), solve, definite);
-    Effort effort = result.state.effort;
-    effort.add(followed.state.effort);
-    const bool kept = followed.converged && definite;
-    if (kept) result = std::move(followed);
-    result.state.effort = effort;
-    return kept ? within : PathWithin{};
+    try {
+        bool definite = false;
+        Stepper::Result followed = iterate(before, at_rest(result.state), solve, definite);
+        Effort effort = result.state.effort;
+        effort.add(followed.state.effort);
+        const bool kept = followed.converged && definite;
+        if (kept) result = std::move(followed);
+        result.state.effort = effort;
+        return kept ? within : PathWithin{};
+    } catch (const Error& error) {
+        if (!unstable(error)) throw;
+        return {};  // the step stays whole
+    }
 }
 
 TurnedSteps::Begin TurnedSteps::at_rest(const State& balance) const {
@@ -363,12 +368,13 @@ Stepper::Result TurnedSteps::step(const State& before, double time, double strid
     const Solve solve = [&](Stepper& stepper, const State& from) { return stepper.step(from, time, {}, stride); };
     bool definite = false;
     Stepper::Result result = iterate(before, begin(before), solve, definite);
-    const PathWithin within = follow_load(before, time, result);
+    PathWithin within = follow_load(before, time, result);
     if (problem_.options.solution == "energetic") result = lowest_state(before, time, stride, std::move(result));
     known = tangents_.know(result.state);
     double work = 0.5 * (dot(d, before.response.conjugate) + dot(d, result.state.response.conjugate));
     if (result.converged && !known.stable()) work = leave_unstable(before, solve, result, known);
-    if (result.state.outcome.buckling.modes == 0) work += within.beyond;
+    if (result.state.outcome.buckling.modes > 0) within = {};  // the path led to the state that has been left
+    work += within.beyond;
     State& next = result.state;
     next.memory = known.about.numbers();
     const double lower_change = half_square(known.tangent, d);
