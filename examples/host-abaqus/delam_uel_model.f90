@@ -50,6 +50,7 @@ subroutine delam_uel_model(number, jtype, props, jprops, coords, context, mesh, 
   if (status == DELAM_OK) call problem%set_formulation('incompatible', status=status, message=message)
   if (status == DELAM_OK) call problem%set_law(1, law, status, message)
   if (status == DELAM_OK) call make_notch()
+  if (status == DELAM_OK) call problem%set('kinematics', 'linear', status, message)  ! the host knows its tangents
   if (status == DELAM_OK .and. props(9) > 0) call problem%set('damage_tolerance', props(9), status, message)
   if (status == DELAM_OK .and. jprops(5) == 1) call problem%set('mixity_rule', 'frozen', status, message)
   if (status == DELAM_OK .and. jprops(5) == 0) call problem%set('path_step', 1.0_dp, status, message)

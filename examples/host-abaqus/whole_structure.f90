@@ -29,6 +29,7 @@ contains
     call join(s, context, mesh, problem, interfaces)
     call hold(s, travel, mesh, problem)
     call problem%set('damage_tolerance', s%users(1)%props(9))
+    call problem%set('kinematics', 'linear')            ! as the elements have them
     if (s%users(1)%jprops(5) == 0) call problem%set('path_step', 1.0_dp)
     if (s%users(1)%jprops(5) == 1) call problem%set('mixity_rule', 'frozen')
     call solver%create(problem, 0.0_dp)

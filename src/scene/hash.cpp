@@ -183,13 +183,15 @@ void add_loads(Fnv& fnv, const Problem& problem) {
 
 }  // namespace
 
-// Following the load, which came later, hashes like `fixed`: a state of one may go on under the other.
+// Settings that came later hash like what was there: following the load like `fixed`, rotations that may become large
+// like small ones. A state of one may go on under the other.
 std::uint64_t hash(const Options& given, std::uint64_t seed, std::span<const Option> table) {
     Fnv fnv{seed};
     Options initial;
-    initial.kinematics = "linear";  // its first default
     Options options = given;
     if (options.step_control == "auto" || options.step_control == "load") options.step_control = "fixed";
+    if (options.kinematics == "auto") options.kinematics = "linear";
+    initial.kinematics = "linear";  // its first default
     for (const Option& row : table) {
         if (row.hashed == Hashed::never) continue;
         std::visit(

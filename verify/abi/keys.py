@@ -196,6 +196,7 @@ class Analysis:
         self.call("problem_set_elastic", problem, -1, 1e5 * force / length**2, 0.3)
         self.call("problem_set_law", problem, 0, law)
         self.call("problem_set_number", problem, b"damage_tolerance", 1e-10)
+        self.call("problem_set_text", problem, b"kinematics", b"linear")  # large rotations know no buckling_ratio
         self.call("problem_add_pattern", problem, b"open", 2, self.real([0, time]), self.real([0, 1]), self.whole([0]))
         nodes = self.whole([0] * 5)
         self.call("mesh_size", mesh, self.short([0]), self.at(nodes, 0), self.at(nodes, 1), self.at(nodes, 2),

@@ -20,6 +20,7 @@ def laminate(interfaces):
     mesh = delam.Mesh.layers(length, 60, [ply] * plies, [2] * plies, "quad4")
     bonds = [mesh.add_interface(i, i + 1) for i in range(interfaces)]
     problem = delam.Problem(mesh, plane="plane-strain")
+    problem.options["kinematics"] = "linear"
     problem.set_elastic(70e9, 0.3)
     for bond in bonds:
         problem.set_law(bond, delam.Law("piecewise-linear", normal_stiffness=1e12, tangential_stiffness=1e12,
@@ -41,6 +42,7 @@ def turned(dimension):
         mesh = delam.Mesh.layers((0.12, 0.012), (40, 2), [0.001, 0.001], [1, 1], "hex8")
     interface, up = mesh.add_interface(0, 1), "xyz"[dimension - 1]
     problem = delam.Problem(mesh, plane="plane-strain") if dimension == 2 else delam.Problem(mesh)
+    problem.options["kinematics"] = "linear"
     problem.set_elastic(70e9, 0.3)
     problem.set_law(interface, delam.Law("piecewise-linear", normal_stiffness=1e13, tangential_stiffness=1e13,
                                          normal_toughness=250.0, tangential_toughness=250.0, normal_onset=25.0, tangential_onset=25.0))

@@ -479,7 +479,7 @@ const std::vector<Strip>& strips() {
         s.dimension = 3;
         s.cells = 7;
         s.strained = true;
-        s.texts = Texts{{"reduction", "condensed"}};
+        s.texts = Texts{{"reduction", "condensed"}, {"kinematics", "linear"}};
         s.steps = 3;
         all.push_back(s);
 

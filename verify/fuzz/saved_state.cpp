@@ -33,6 +33,7 @@ public:
             expect(delam_solver_record(solver_, key) == DELAM_OK, "values are recorded", "delam_solver_record");
         states_.push_back(saved(solver_));
         for (std::size_t step = 1; step <= steps; ++step) {
+            host_.polls_left = 40000;
             expect(goes_on(step), "an analysis goes on", "delam_solver_advance");
             delam_solver_commit(solver_);
             states_.push_back(saved(solver_));
@@ -83,7 +84,7 @@ private:
         return status == DELAM_OK || status == DELAM_NOT_CONVERGED;
     }
     void go_on_from(std::size_t step) {
-        host_.polls_left = 4000;
+        host_.polls_left = 40000;
         expect(goes_on(step + 1), "an analysis goes on", "delam_solver_advance");
         delam_solver_commit(solver_);
         expect(saved(solver_) == states_[step + 1], "the rest is bitwise the same", "delam_solver_load");

@@ -94,7 +94,7 @@ def scene(dimension):
                                     normal_onset=20.0, tangential_onset=20.0, normal_toughness=250.0,
                                     tangential_toughness=500.0))
     problem.options["damage_tolerance"] = 1e-10
-    problem.options["step_control"] = "fixed"  # as it is with an engine
+    problem.options.update(step_control="fixed", kinematics="linear")  # as they are with an engine
     length = mesh.nodes[:, 0].max()
     problem.set_adhesion(glue, glue.places[:, 0] < length / 3.0, 0.0)
     opening = problem.add_pattern("opening", [0.0, 1.0], [0.0, 1e-3 if dimension == 2 else 3e-3])

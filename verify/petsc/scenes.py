@@ -71,7 +71,9 @@ def main():
         scene, settings = known[name]
         if kind == "tight":
             settings = [*settings, f"solver.damage_tolerance={TIGHT}"]
-        # Ranks take steps whole (step_control = auto); the serial program does so where it is asked.
+        # Ranks take steps whole (step_control = auto) and keep rotations small (kinematics = auto); the serial program
+        # does so where it is asked.
+        settings = [*settings, "solver.kinematics=linear"]
         if not any("step_control" in setting for setting in settings):
             settings = [*settings, "solver.step_control=fixed"]
         words = [word for setting in [*settings, FIELDS] for word in ("--set", setting)]

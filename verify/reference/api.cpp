@@ -122,6 +122,7 @@ void Scene::begin() {
     std::int64_t interfaces = 0;
     require(delam_mesh_size(mesh(), nullptr, nullptr, nullptr, nullptr, &interfaces), "delam_mesh_size");
     stiffness_.resize(static_cast<std::size_t>(interfaces));
+    text("kinematics", "linear");  // as in the reference solvers
 }
 
 void Scene::elastic(std::int32_t body, double young, double poisson) {

@@ -100,6 +100,7 @@ public:
                           std::int64_t control_node);
     // Adds interfaces between all bodies that touch; returns their number.
     std::int64_t all_interfaces();
+    // Creates the problem, with small rotations: those of the other solvers here are, and tests of large ones say so.
     void begin();
 
     void elastic(std::int32_t body, double young, double poisson);

@@ -354,17 +354,21 @@ class Model:
 
     def curve_with(self, which, name, values, more):
         """The curve of one scene at the parameters and with other numbers of the scene, by key; Infeasible where there is
-        no answer. It has no derivatives, and is none of the points of the search."""
+        no answer. It is none of the points of the search, but takes steps and rotations as they do."""
         settings = self._settings(values) + [setting(key, float(value)) for key, value in more.items()] + self._coarser(which)
-        history = self._analyse(which, name, settings)
+        history = self._analyse(which, name, settings + self._followed())
         return self._at_data(which, history, self._column(history, self.y_name, which))
+
+    def _followed(self):
+        """What asks for derivatives; with them, steps are taken whole and rotations stay small."""
+        keys = [p.path for p in self.parameters if p.of_law]
+        return [f"output.sensitivities={keys}"] if keys and self.y_name.startswith("reaction") else []
 
     def _curve(self, job):
         """One scene: its curve, derivatives and history."""
         which, values = job
         settings = self._settings(values) + self._coarser(which)
-        followed = [p.path for p in self.parameters if p.of_law]
-        asked = [f"output.sensitivities={followed}"] if followed and self.y_name.startswith("reaction") else []
+        asked = self._followed()
         history = self._analyse(which, "at", settings + asked)
         y = self._at_data(which, history, self._column(history, self.y_name, which))
         self.jumps[which] = self._column(history, self.x_name, which)[history["jumps"] > 0]

@@ -105,7 +105,7 @@ for drive, forces in ((-5e-4, (0, 0.025, 0.0875, 0.15)), (5e-4, (0, 0, 0, 0))):
     place = os.path.dirname(path)
     for reduction in ("condensed", "iterated", "feti"):
         out = os.path.join(folder(), "out")
-        text = scene.replace("[units]", f'[solver]\nreduction = "{reduction}"\n\n[units]')
+        text = scene.replace("[solver]\n", f'[solver]\nreduction = "{reduction}"\n')
         code, said, error = delam("run", write(text, "gap.toml", place), "--out", out)
         expect(code == 0, f"it runs: exit {code} {error.strip()[:300]}")
         with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:

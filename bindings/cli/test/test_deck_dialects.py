@@ -204,12 +204,14 @@ def check_large_rotations():
     scene, said = imported(bar(after=large))
     expect('[solver]\nkinematics = "corotational"\n' in scene, scene[-800:])
     scene, said = imported(bar(after=STEP.replace("*STEP", "*STEP, NLGEOM=NO")))
-    expect("[solver]" not in scene and "NLGEOM=NO: kinematics" in said, said)
+    expect('[solver]\nkinematics = "linear"\n' in scene and "NLGEOM=NO: kinematics" in said, said)
+    scene, said = imported(bar())
+    expect('[solver]\nkinematics = "linear"\n' in scene and "no NLGEOM" in said, said)
     scene, said = imported(bar(after=STEP + large))
     expect('kinematics = "corotational"' in scene and "from the first step on" in said, said)
     point = "*NODE\n1000, 1., 2.\n*RIGID BODY, REF NODE=1000, PIN NSET=TOP\n"
     scene, said = imported(bar(before=point, after=large.replace("TOP, 2, 2", "1000, 2, 2")))
-    expect("[solver]" not in scene and "because angles of nodes that belong to no body" in said, said)
+    expect('kinematics = "linear"' in scene and "because angles of nodes that belong to no body" in said, said)
     tied = "*NODE\n1000, 1., 2.\n*EQUATION\n2\nTOP, 2, 1., 1000, 2, -1.\n"
     point = bar(before=tied, after=large.replace("TOP, 2, 2", "1000, 2, 2"))
     scene, said = imported(point)

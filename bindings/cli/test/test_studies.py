@@ -24,7 +24,7 @@ def write_lines(path, *lines):
 
 
 def sweeps():
-    scene = write(changed("steps = 20", "steps = 5"))
+    scene = write(changed("steps = 20", 'steps = 5\n[solver]\nkinematics = "linear"'))
     out = os.path.join(folder(), "sweep")
     words = ["sweep", scene, "--vary", "laws.0.tangential_toughness=200:400:3", "--vary",
              "laws.0.kind=piecewise-linear,exponential", "--set", "laws.0.normal_toughness=400", "--out", out, "--jobs", "2"]

@@ -40,6 +40,7 @@ def load(problem):
         problem.prescribe(foot, axis)
         problem.prescribe(tip, axis, problem.add_pattern(name, [0, 1], [0, ENDS[name]]))
     problem.options["damage_tolerance"] = 1e-11
+    problem.options["kinematics"] = "linear"  # a stiffness that is given does not turn
     return problem
 
 

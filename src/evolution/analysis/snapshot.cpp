@@ -213,16 +213,27 @@ void write_stage(Writer& w, const Solver& solver) {
     if (may_turn(*solver.stage()->whole)) w.item(std::uint64_t{stage.rotates});
 }
 
+// A state with small rotations may go on where they may become large, and the other way round.
 std::optional<Stage> read_stage(Reader& r, const Solver& solver) {
-    if (solver.stage() == nullptr) return {};
-    const Problem& whole = *solver.stage()->whole;
+    const StageOf* own = solver.stage();
+    const Problem& whole = own != nullptr ? *own->whole : solver.problem();
+    const bool turns = r.version() >= since_rotation_checks;  // the scene of the state has kinematics = auto
+    if (!turns && own == nullptr) return {};
     Stage stage;
+    if (!turns && changes_of(whole).empty()) {
+        stage = own->stage;
+        stage.rotates = false;
+        return stage;
+    }
     r.item(stage.from);
     r.item(stage.offset);
     r.item(stage.force);
     std::uint64_t rotates = 0;
-    if (may_turn(whole)) r.item(rotates);
+    if (turns) r.item(rotates);
     stage.rotates = rotates != 0;
+    if (stage.rotates && !may_turn(whole))
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a state with large rotations (kinematics = auto), this scene has ",
+             "kinematics = ", whole.options.kinematics);
     const auto sound = [&](const std::vector<double>& values, auto member) {
         bool all = values.size() == whole.constraints.size();
         for (std::size_t c = 0; all && c < values.size(); ++c) {
@@ -238,7 +249,7 @@ std::optional<Stage> read_stage(Reader& r, const Solver& solver) {
         rotates > 1)
         fail(DELAM_ERROR_SNAPSHOT, "snapshot holds supports from time ", stage.from,
              " on, which this scene cannot have");
-    return stage;
+    return own != nullptr ? std::optional(std::move(stage)) : std::nullopt;
 }
 
 // Reads what stands before the histories in complete bytes of this scene.

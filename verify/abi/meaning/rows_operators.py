@@ -119,6 +119,7 @@ class Block:
         host("problem_set_elastic", problem, 1, 1e3 * contrast, 0.25)
         host("problem_set_formulation", problem, -1, "standard")  # the counts of iterations are theirs
         host("problem_set_law", problem, 0, scenes.strong(host, springs, springs))
+        scenes.give(host, problem, "kinematics", "linear")  # it stretches by a tenth
         load = scenes.ramp(host, problem)
         last = 2 * (columns + 1) * (rows + 1)
         scenes.hold(host, problem, list(range(columns + 1)), [[1.0, 0.0], [0.0, 1.0]])

@@ -18,7 +18,7 @@ DEFAULTS = {
     "mixity_step_tolerance": 0, "smallest_step": 1e-4, "jump_tolerance": 0, "jump_size": 0.5, "damage_tolerance": 1e-5,
     "minimisation_limit": 5000, "backtracking_tolerance": 1e-3, "minimisation": "auto", "reduction": "auto",
     "contact": "auto", "mixity": "auto", "mixity_rule": "converged", "path_step": 0.15, "accuracy": 3e-3,
-    "contact_limit": 200, "kinematics": "linear",
+    "contact_limit": 200, "kinematics": "auto",
     "subdomains": 0, "gluing": "orthonormal", "preconditioner": "series", "scaling": "stiffness",
     "linear_tolerance": 1e-13, "linear_limit": 2000, "threads": 1, "memory_limit": 0,
 }
@@ -58,10 +58,10 @@ def hash_of_defaults(host, see):
             continue
         see.that(f"{key} = {default} is another scene than {key} left alone", hashed([(key, default)]) == untouched)
         other = {"local": "energetic", "fixed": "adaptive", "converged": "frozen", "orthonormal": "redundant",
-                 "series": "none", "stiffness": "multiplicity", "linear": "corotational"}.get(default, "always")
-        if default == "auto" and key in ("backtracking", "minimisation", "reduction", "step_control"):
+                 "series": "none", "stiffness": "multiplicity"}.get(default, "always")
+        if default == "auto" and key in ("backtracking", "minimisation", "reduction", "step_control", "kinematics"):
             other = {"backtracking": "on", "minimisation": "alternate", "reduction": "feti",
-                     "step_control": "adaptive"}[key]
+                     "step_control": "adaptive", "kinematics": "corotational"}[key]
         near = other if isinstance(default, str) else default + 1 if isinstance(default, int) and key not in (
             "jump_tolerance", "mixity_step_tolerance") else 1.001 * default if default else 1e-9
         if key not in OUTSIDE_THE_HASH:
@@ -137,10 +137,29 @@ def minimisation(host, see):
 def kinematics(host, see):
     """A square whose lower edge turns by 0.5 rad. With linear strains the edge shortens by s = 1 - cos(0.5), by an axial
     strain a and a bending b of the square, a + b = s, with the least energy 1/2 a^2 + 1/6 b^2 = s^2/8. A square that may
-    turn stores nothing."""
+    turn stores nothing. One whose upper edge moves by g = 0.01 sideways stores 1/4 g^2 with small rotations, and
+    differs by its square with large ones."""
     shortening = 1.0 - math.cos(0.5)
+    sheared = 0.01
 
     def run(options):
+        return [max(turned(options), 1e-20), of_shear(options)]
+
+    def of_shear(options):
+        mesh = host("mesh_create_layers", host.context, 2, [1.0], [1], 1, [1.0], [1], TYPES["quad4"], Out())
+        problem = host("problem_create", host.context, mesh, Out())
+        host("problem_set_elastic", problem, -1, 1.0, 0.0)
+        for key, setting in options:
+            scenes.give(host, problem, key, setting)
+        scenes.hold(host, problem, [0, 1], [[1.0, 0.0], [0.0, 1.0]])
+        scenes.hold(host, problem, [2, 3], [[0.0, 1.0]])
+        scenes.drive(host, problem, [2, 3], [1.0, 0.0], scenes.ramp(host, problem, "sideways", (0.0, 1.0), (0.0, sheared)),
+                     [1.0, 1.0])
+        solver = host("solver_create", problem, 0.0, Out())
+        host("solver_advance", solver, 1.0)
+        return value(host, solver, "stored_bulk")
+
+    def turned(options):
         nodes, cells = scenes.unit_cells(1)
         mesh = host("mesh_create", host.context, 2, len(nodes), [x for node in nodes for x in node], Out())
         host("mesh_add_cells", mesh, TYPES["quad4"], 1, cells[0], [0], 0)
@@ -155,10 +174,10 @@ def kinematics(host, see):
                      scenes.ramp(host, problem, "up", (0.0, 1.0), (0.0, math.sin(0.5))), [1.0])
         solver = host("solver_create", problem, 0.0, Out())
         host("solver_advance", solver, 1.0)
-        return [value(host, solver, "stored_bulk")]
+        return value(host, solver, "stored_bulk")
 
-    observe(see, "kinematics", run, ["corotational"], [shortening ** 2 / 8.0], "J/m", 1e-9)
-    see.that("a square that may turn stores nothing", run([("kinematics", "corotational")])[0] < 1e-20)
+    observe(see, "kinematics", run, ["corotational", "linear"], [1e-20, 0.25 * sheared ** 2], "J/m", 1e-9)
+    see.near("kinematics = linear", run([("kinematics", "linear")]), [shortening ** 2 / 8.0, 0.25 * sheared ** 2], "J/m", 1e-9)
 
 
 # ---- steps that are divided ----

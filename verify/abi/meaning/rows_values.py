@@ -179,6 +179,7 @@ def analyse(host, see):
         place = [points[d * n:d * n + d] for n in range(count)]
         scenes.give(host, problem, "damage_tolerance", 1e-12)
         scenes.give(host, problem, "mixity_rule", "frozen")
+        scenes.give(host, problem, "kinematics", "linear")
         scenes.hold(host, problem, [n for n in range(count) if place[n][0] == 4.0],
                     [scenes.axis(d, k) for k in range(d)])
         up, free = scenes.axis(d, d - 1), [n for n in range(count) if place[n][0] == 0.0]

@@ -83,6 +83,7 @@ class Scene:
         count = len(places)
         mesh, cells = mesh_of(random, d, places)
         problem = delam.Problem(mesh, plane="plane-strain" if d == 2 else None)
+        problem.options["kinematics"] = "linear"
         for body in range(count):
             problem.set_elastic(10.0 ** random.uniform(0, 2), random.uniform(0.1, 0.4), body)
         stiffness = [50.0] + [20.0] * (d - 1)

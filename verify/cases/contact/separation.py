@@ -42,6 +42,7 @@ def problem_of(blocks, poisson):
     mesh.add_cells("quad4", np.vstack(cells), np.concatenate(bodies))
     mesh.add_all_interfaces()
     problem = delam.Problem(mesh, plane="plane-strain")
+    problem.options["kinematics"] = "linear"
     for body in range(len(blocks)):
         problem.set_elastic(1000.0, poisson, body)
     strength, stiffness, toughness = 1.0, 1e5, 0.002

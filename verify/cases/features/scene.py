@@ -25,8 +25,8 @@ class Scene:
     def __init__(self, features, toughness=1.0):
         self.features = frozenset(features)
         self.dimension, self.plane, self.law = 2, None, dict(LAW)
-        # An engine takes steps whole, and so do those with which it is compared.
-        self.options = {"damage_tolerance": 1e-11, "step_control": "fixed"}
+        # An engine takes steps whole and keeps rotations small, and so do those with which it is compared.
+        self.options = {"damage_tolerance": 1e-11, "step_control": "fixed", "kinematics": "linear"}
         self.engine = self.periodic = self.nose = self.hosted = self.heated = self.pressed = False
         for feature in features:
             if feature.add is not None:

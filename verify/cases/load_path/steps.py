@@ -43,6 +43,7 @@ def arms(law_of, columns=160):
     mesh = delam.Mesh.layers(0.06, columns, [0.002, 0.002], [2, 2], "quad4")
     interface = mesh.add_interface(0, 1)
     problem = delam.Problem(mesh, plane="plane-strain")
+    problem.options["kinematics"] = "linear"
     problem.set_elastic(70e9, 0.3)
     problem.set_law(interface, law_of)
     problem.set_adhesion(interface, interface.places[:, 0] < 0.015 - 1e-6, 0.0)
@@ -75,6 +76,7 @@ def opened():
     mesh = delam.Mesh.layers(0.1, 1000, [0.0015, 0.0015], [2, 2], "quad4")
     interface = mesh.add_interface(0, 1)
     problem = delam.Problem(mesh, plane="plane-strain")
+    problem.options["kinematics"] = "linear"
     problem.set_elastic(20e9, 0.25)
     problem.set_law(interface, delam.Law("piecewise-linear", normal_stiffness=5.7e17, tangential_stiffness=5.7e17,
                                          normal_toughness=280.0, tangential_toughness=280.0, normal_onset=0.00285,
@@ -92,6 +94,7 @@ def film(notch=0.01, length=0.03, columns=150, substrate=0.001, cells=1):
     mesh = delam.Mesh.layers(length, columns, [0.0002, substrate], [cells, 2], "quad4")
     interface = mesh.add_interface(0, 1)
     problem = delam.Problem(mesh, plane="plane-strain")
+    problem.options["kinematics"] = "linear"
     problem.set_elastic(70e9, 0.33, body=0)
     problem.set_elastic(200e9, 0.3, body=1)
     problem.set_law(interface, delam.Law("piecewise-linear", normal_stiffness=1e14, tangential_stiffness=1e14,

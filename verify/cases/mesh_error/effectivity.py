@@ -80,6 +80,7 @@ class Scene:
         mesh, straight = self.mesh(dimension, cell, across, columns, mapped or self.same)
         bonds = [mesh.add_interface(body, body + 1) for body in range(len(self.layers) - 1)]
         problem = delam.Problem(mesh, plane="plane-strain") if dimension == 2 else delam.Problem(mesh)
+        problem.options["kinematics"] = "linear"  # unit loads
         if len(self.material) == 2:
             problem.set_elastic(*self.material)
         else:

@@ -23,6 +23,7 @@ def pressed(layers, notches, the_law, press, columns=80, bent_at=0.06):
     mesh = delam.Mesh.layers(0.12, columns, [0.003] * layers, [2] * layers, "quad4")
     interfaces = [mesh.add_interface(i, i + 1) for i in range(layers - 1)]
     problem = delam.Problem(mesh, plane="plane-strain")
+    problem.options["kinematics"] = "linear"
     problem.set_elastic(75e9, 0.3)
     for interface in interfaces:
         problem.set_law(interface, the_law)
@@ -46,6 +47,7 @@ def opened(dimension, onset, shear=1.0, offset=0.0):
         mesh = delam.Mesh.layers((0.06, 0.012), (40, 4), [0.0015, 0.0015], [1, 1], "hex8")
     interface = mesh.add_interface(0, 1)
     problem = delam.Problem(mesh, plane="plane-strain") if dimension == 2 else delam.Problem(mesh)
+    problem.options["kinematics"] = "linear"
     problem.set_elastic(70e9, 0.3)
     problem.set_law(interface, law(onset, 100.0, shear))
     problem.set_adhesion(interface, interface.places[:, 0] < 0.02 - 1e-6, 0.0)

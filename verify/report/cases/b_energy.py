@@ -77,6 +77,7 @@ def ledger(context):
                     tangential_onset=100.0,
                     normal_toughness=250.0, tangential_toughness=250.0)
     problem = delam.Problem(mesh, plane="plane-strain")
+    problem.options["kinematics"] = "linear"
     problem.set_formulation("standard")
     problem.options["step_control"] = "fixed"
     problem.set_elastic(75e9, 0.3)

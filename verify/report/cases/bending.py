@@ -99,6 +99,7 @@ def scene(delam, specimen, h, path, shear=TURON, second=MODE_II, **options):
     mesh = delam.Mesh.layers(LENGTH, round(LENGTH / h), [ARM, ARM], [4, 4], "quad4")
     interface = mesh.add_interface(0, 1)
     problem = delam.Problem(mesh, plane="plane-strain")
+    problem.options["kinematics"] = "linear"
     problem.set_orthotropic([E1, E2, E2, NU12, NU12, NU23, G12, G12, E2 / (2 * (1 + NU23))])
     problem.set_formulation("incompatible")
     problem.set_law(interface, delam.Law(

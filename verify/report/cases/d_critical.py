@@ -37,6 +37,7 @@ def scene(delam, law, **options):
     mesh = delam.Mesh.layers(LENGTH, COLUMNS, [ARM, ARM], [2, 2], "quad4")
     interface = mesh.add_interface(0, 1)
     problem = delam.Problem(mesh, plane="plane-strain")
+    problem.options["kinematics"] = "linear"
     problem.set_formulation("standard")
     problem.set_elastic(70e9, 0.3)
     problem.set_law(interface, law_of(delam, *law))

@@ -37,6 +37,7 @@ def pair(context):
         mesh = delam.Mesh.layers(1.0, 1, [1.0, 1.0], [1, 1], "quad4")
         interface = mesh.add_interface(0, 1)
         problem = delam.Problem(mesh, plane="plane-strain")
+        problem.options["kinematics"] = "linear"
         problem.set_formulation("standard")
         problem.set_elastic(1e9, 0.2)
         problem.set_law(interface, law_of(delam, (125e9, 80e9), (100.0, 160.0), (250.0, 480.0)))
@@ -83,6 +84,7 @@ def spring_scene(delam, spring, end, **options):
     mesh = delam.Mesh.layers(0.05, 1, [1.0, 1.0], [1, 1], "quad4")
     interface = mesh.add_interface(0, 1)
     problem = delam.Problem(mesh, plane="plane-strain")
+    problem.options["kinematics"] = "linear"
     problem.set_formulation("standard")
     problem.set_elastic(2.0 * spring, 0.0)
     problem.set_law(interface, law_of(delam, (K, K), (ONSET, ONSET), (TOUGHNESS, TOUGHNESS)))
@@ -166,6 +168,7 @@ def bar_scene(delam, cells, held, end, **options):
     mesh = delam.Mesh.layers(BAR["length"], cells, [thin, thin], [1, 1], "quad4")
     interface = mesh.add_interface(0, 1)
     problem = delam.Problem(mesh, plane="plane-stress")
+    problem.options["kinematics"] = "linear"
     problem.set_formulation("standard")
     problem.set_elastic(BAR["membrane"] / thin, 0.0)
     k, g = BAR["membrane"] / BAR["bond"] ** 2, BAR["toughness"]
@@ -261,6 +264,7 @@ def enf(context):
         mesh = delam.Mesh.layers(length, round(length / h), [arm, arm], [round(arm / h)] * 2, "quad4")
         interface = mesh.add_interface(0, 1)
         problem = delam.Problem(mesh, plane="plane-strain")
+        problem.options["kinematics"] = "linear"
         problem.set_elastic(young, nu)
         problem.set_formulation("incompatible")
         problem.set_law(interface, law_of(delam, (125e12, 125e12), (1e6, 1e6), (2e6, 2e6)))

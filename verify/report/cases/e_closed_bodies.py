@@ -125,6 +125,7 @@ def fibre(context):
             mesh.add_cells("quad4", cells, bodies)
             interface = mesh.add_interface(0, 1)
             problem = delam.Problem(mesh, plane="plane-strain")
+            problem.options["kinematics"] = "linear"
             problem.set_formulation("standard")
             problem.set_elastic(*FIBRE, body=0)
             problem.set_elastic(*MATRIX, body=1)
@@ -186,6 +187,7 @@ def arms(delam, with_machine):
     if with_machine:
         top, bottom = mesh.add_obstacle([upper], (0.0, -1.0), above, [1.0]), mesh.add_obstacle([lower], (0.0, 1.0), below, [1.0])
     problem = delam.Problem(mesh, plane="plane-strain")
+    problem.options["kinematics"] = "linear"
     problem.set_formulation("standard")
     problem.set_elastic(70e9, 0.3)
     problem.set_law(glue, law_of(delam, (1e12, 1e12), (20.0, 40.0), (600.0, 1500.0)))

@@ -34,6 +34,7 @@ def scene(delam, specimen, h, patch=0.0, element="quad4", **options):
                              "quad8" if quadratic else "quad4")
     interface = mesh.add_interface(0, 1)
     problem = delam.Problem(mesh, plane="plane-strain")
+    problem.options["kinematics"] = "linear"
     problem.set_elastic(75e9, 0.3)
     problem.set_formulation("incompatible" if element == "quad4-incompatible" else "standard")
     problem.options["step_control"] = "fixed"  # whole steps, like the tables of PANM 15

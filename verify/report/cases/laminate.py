@@ -16,6 +16,7 @@ def scene(delam, h, **options):
     mesh = delam.Mesh.layers(LENGTH, round(LENGTH / h), [n * PLY for n in PLIES], list(PLIES), "quad4")
     interfaces = [mesh.add_interface(k, k + 1) for k in range(len(OPEN))]
     problem = delam.Problem(mesh, plane="plane-strain")
+    problem.options["kinematics"] = "linear"
     problem.set_orthotropic([115e9, 8.5e9, 8.5e9, 0.29, 0.29, 0.30, 4.5e9, 4.5e9, 3.3e9])
     problem.set_formulation("incompatible")
     law = delam.Law("piecewise-linear", criterion="benzeggagh-kenane", normal_stiffness=1e14, tangential_stiffness=1e14,

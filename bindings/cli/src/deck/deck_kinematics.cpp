@@ -17,22 +17,26 @@ std::string unknown_part(const References& references) {
                : "";
 }
 
+constexpr const char* small_rotations = "kinematics = \"linear\"\n";
+
 }  // namespace
 
 std::string kinematics_key(Deck& deck, const References& references) {
     const auto large = [](const Step& step) { return step.large.value_or(false); };
     const auto first = std::find_if(deck.steps.begin(), deck.steps.end(), large);
     if (first == deck.steps.end()) {
-        if (std::any_of(deck.steps.begin(), deck.steps.end(), [](const Step& step) { return step.large.has_value(); }))
-            deck.changed.emplace_back("NLGEOM=NO: kinematics = \"linear\", which is that of a scene that names none");
-        return "";
+        const bool said =
+            std::any_of(deck.steps.begin(), deck.steps.end(), [](const Step& step) { return step.large.has_value(); });
+        deck.changed.push_back(fmt::format("{}: kinematics = \"linear\", rotations are small whatever they come to",
+                                           said ? "NLGEOM=NO" : "no NLGEOM, which means NLGEOM=NO"));
+        return small_rotations;
     }
     if (const std::string unknown = unknown_part(references); !unknown.empty()) {
         deck.changed.push_back(
             fmt::format("NLGEOM=YES: small displacements and rotations here, kinematics = \"linear\", because {}; the "
                         "program warns where cells rotate by more than 0.1 rad",
                         unknown));
-        return "";
+        return small_rotations;
     }
     deck.changed.push_back(fmt::format(
         "NLGEOM=YES: kinematics = \"corotational\"{}: large rotations, small strains; it takes some times as long as "

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include <fmt/format.h>
@@ -22,6 +23,14 @@ constexpr double told_share = 0.005;
 constexpr double large_rotation = 0.1;  // rad
 // Below a tenth of the critical stresses, bending grows by at most a tenth, 1 / (1 - ratio).
 constexpr double near_critical = 0.1;
+// The words of the plan of a scene that keeps its rotations small because large ones do not know a part of it.
+constexpr std::string_view not_known = "option kinematics = auto: they do not know";
+
+// Returns what a person can do about it.
+const char* remedy(const SmallRotations& small) {
+    return small.refused ? "(`delam check` tells why large rotations are not known here)"
+                         : "(solver.kinematics = \"corotational\" does not)";
+}
 
 }  // namespace
 
@@ -38,7 +47,8 @@ SmallRotations small_rotations_of(const Model& model, delam_solver* solver, cons
         const auto* word = std::get_if<std::string>(&option.value);
         return option.key == "kinematics" && word != nullptr && *word != "auto";
     });
-    if (!asked_for) value("buckling_ratio", small.buckling);
+    if (!asked_for || scene.imported) value("buckling_ratio", small.buckling);
+    small.refused = std::string_view(delam_solver_plan(solver)).find(not_known) != std::string_view::npos;
     return small;
 }
 
@@ -49,10 +59,9 @@ std::string rotation_line(const SmallRotations& small, const BulkFacts& bulk) {
     const double error = earlier ? bulk.rotations.error : small.error > of_strains ? small.error : of_strains;
     if (!(largest > large_rotation) && !(error > told_share)) return "";
     return fmt::format(
-        "warning: cells rotate by up to {:.3g} rad: small rotations leave out about {} of the energy{} "
-        "(solver.kinematics = \"corotational\" does not)",
-        largest, percent_text(error),
-        earlier ? fmt::format(" in {}", instant_text(bulk.rotations.step, bulk.rotations.time)) : "");
+        "warning: cells rotate by up to {:.3g} rad: small rotations leave out about {} of the energy{} {}", largest,
+        percent_text(error),
+        earlier ? fmt::format(" in {}", instant_text(bulk.rotations.step, bulk.rotations.time)) : "", remedy(small));
 }
 
 std::string critical_line(const SmallRotations& small) {
@@ -60,12 +69,12 @@ std::string critical_line(const SmallRotations& small) {
     if (small.buckling > 1.0)
         return fmt::format(
             "warning: the stresses at the end are {:.3g} times those at which the bodies buckle: with small rotations "
-            "they do not, solver.kinematics = \"corotational\" lets them",
-            small.buckling);
+            "they do not {}",
+            small.buckling, small.refused ? remedy(small) : "(with solver.kinematics = \"corotational\" they may)");
     return fmt::format(
         "warning: the stresses at the end are {:.2g} of those at which the bodies buckle, and increase bending by "
-        "up to {}, which small rotations leave out (solver.kinematics = \"corotational\" does not)",
-        small.buckling, percent_text(small.buckling / (1.0 - small.buckling)));
+        "up to {}, which small rotations leave out {}",
+        small.buckling, percent_text(small.buckling / (1.0 - small.buckling)), remedy(small));
 }
 
 }  // namespace cli
