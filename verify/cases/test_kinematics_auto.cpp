@@ -62,6 +62,34 @@ TEST(rotations_become_large_where_they_must) {
 }
 
 // Scenes that large rotations do not know stay as they are, and the plan says why.
+// A state with small rotations goes on under either, as those of versions whose default was linear do, and to the same
+// digits. One with large rotations does not go on where they are small.
+TEST(small_rotations_go_on_under_either) {
+    const Beam beam{60.0, 0.5, 30.0, 240, 2};
+    const Scene small = double_cantilever(beam, 12.0, "linear"), either = double_cantilever(beam, 12.0, "auto");
+    const auto advance = [](Solver& solver, int k) {
+        solver.step(k / 20.0);
+        solver.commit();
+    };
+    Solver linear(small, 0.0), chosen(either, 0.0);
+    for (int k = 1; k <= 2; ++k)
+        for (Solver* solver : {&linear, &chosen}) advance(*solver, k);
+    Solver of_linear(either, 0.0), of_chosen(small, 0.0);
+    either.require(of_linear.load(linear.save()), "delam_solver_load, of linear");
+    small.require(of_chosen.load(chosen.save()), "delam_solver_load, of auto");
+    for (Solver* solver : {&linear, &chosen, &of_linear, &of_chosen}) advance(*solver, 3);
+    cases::expect_same(of_chosen, cases::read_bits(of_chosen), cases::read_bits(linear), "auto goes on with linear");
+    for (int k = 4; k <= 12; ++k)
+        for (Solver* solver : {&chosen, &of_linear}) advance(*solver, k);
+    const double force = chosen.value("reaction:load");
+    cases::expect_near(of_linear.value("reaction:load"), force, 1e-9, force, "linear goes on with auto");
+    const auto before = cases::read_bits(linear);
+    cases::expect(linear.load(chosen.save()) == DELAM_ERROR_SNAPSHOT, "a state with large rotations is refused");
+    const std::string said = delam_context_message(small.context());
+    cases::expect(said.find("large rotations (kinematics = auto)") != std::string::npos, "refused: " + said);
+    cases::expect_same(linear, cases::read_bits(linear), before, "the refusal leaves the solver as it was");
+}
+
 TEST(rotations_that_cannot_become_large) {
     Scene scene = double_cantilever({30.0, 0.5, 10.0, 60, 2}, 10.0, "auto");
     scene.text("backtracking", "on");

@@ -2,7 +2,7 @@
 """The features of the table, and the small scene to which each of them adds itself.
 
 Two plies are bonded but for a notch. The lower one stands on rollers; above the notch the upper one is lifted and
-pulled along. Where nothing else is said, the scene is a plane with the library's default options."""
+pulled along. Where nothing else is said, the scene is a plane with the default options, but for those of `Scene`."""
 import dataclasses
 from collections.abc import Callable
 
