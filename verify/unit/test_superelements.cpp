@@ -275,6 +275,37 @@ LOOP_TEST(history_leaves_no_digit, 0, cases().size()) {
     }
 }
 
+// Other loads pass through the factors that are there, with the digits of an elimination that was made for them.
+LOOP_TEST(other_loads_leave_no_digit, 0, cases().size()) {
+    const Case c = cases()[index(loop)];
+    const Problem problem = problem_of(c);
+    Monitor monitor;
+    Bulk bulk(problem, monitor);
+    bulk.condense(monitor);
+    const Superelements& bodies = bulk.superelements();
+    Elimination one = bulk.elimination();
+    std::mt19937 random(13);
+    std::uniform_real_distribution<double> number(0.5, 2.0);
+    std::vector<double> state = random_states(bodies, random, true);
+    for (int trial = 0; trial < 12; ++trial) {
+        if (trial % 3 == 2) state = random_states(bodies, random, trial % 2 == 0);
+        DenseMatrix load = bulk.elimination().loads();
+        for (double& l : load.value) l *= number(random);
+        one.take_loads(load);
+        one.update(state, {});
+        Elimination unused(bodies, load);
+        unused.update(state, {});
+        ck_assert(one.places() == unused.places());
+        ck_assert(same_bits(one.energy().stiffness.value, unused.energy().stiffness.value));
+        ck_assert(same_bits(one.energy().load.value, unused.energy().load.value));
+        const std::vector<double> theta(index(load.columns), 0.7), zone(one.places().size(), 1e-6);
+        std::vector<double> skeleton(bodies.variable().size()), expected(skeleton.size());
+        one.recover(theta, zone, skeleton);
+        unused.recover(theta, zone, expected);
+        ck_assert(same_bits(skeleton, expected));
+    }
+}
+
 // Copies of a piece are condensed once; a piece of another material is no copy.
 TEST(copies_share_a_piece) {
     unit::Flexure beam;

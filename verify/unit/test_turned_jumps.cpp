@@ -14,6 +14,7 @@
 #include "mesh/layers.hpp"
 #include "mesh/pairing/interfaces.hpp"
 #include "reduction/turned/turned_jumps.hpp"
+#include "reduction/turned/turned_operator.hpp"
 #include "scene/carriers.hpp"
 #include "scene/problem.hpp"
 
@@ -82,6 +83,27 @@ double energy(const std::vector<double>& jump) {
 }  // namespace
 
 // Faces rest on each other, or have slid by more than the spacing of the pairs.
+// A state remembers a point, with the way to it or without, and the operator's numbers; earlier states have the point
+// alone, after a number that tells of its stresses.
+LOOP_TEST(a_state_remembers_its_linear_scene, 0, 8) {
+    using Stresses = TurnedCell::Stresses;
+    const std::vector<double> at{1.0, 2.0, 3.0, 4.0}, place{5.0, 6.0, 7.0, 8.0}, theta{0.5};
+    const bool moved = loop % 2 != 0, own = loop / 2 % 2 != 0;
+    TurnedMemory memory;
+    memory.point = {place, {}, {}, loop < 4 ? Stresses::count : Stresses::left_out, theta};
+    if (moved) memory.point.from = memory.point.along = at;
+    if (own) memory.of_operator = {0.0, -1.0, 9.0};
+    std::vector<double> numbers = memory.numbers();
+    const TurnedMemory again = TurnedMemory::of(numbers, at, theta);
+    ck_assert(again.point == memory.point && again.of_operator == memory.of_operator);
+    if (own) return;
+    numbers.front() = loop < 4 ? 1.0 : 0.0;
+    const TurnedMemory earlier = TurnedMemory::of(numbers, at, theta);
+    ck_assert(earlier.point == memory.point && earlier.of_operator.empty());
+    const TurnedMemory none = TurnedMemory::of({}, at, theta);
+    ck_assert(none.point.displacement == at && none.point.from.empty() && none.of_operator.empty());
+}
+
 LOOP_TEST(forces_are_the_derivative_of_the_energy_of_the_jumps, 0, 4) {
     const Layers layers(2 + loop % 2);
     const std::vector<double> u = layers.displaced(1.9, 0.05, loop < 2 ? 0.0 : 1.4);

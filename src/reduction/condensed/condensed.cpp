@@ -24,13 +24,17 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
 
 bool Condensed::renew(Renewed what) {
     forget_zone();
-    tree_.reset();
-    tree_offered_ = false;
     solved_ = {};
     choice_.expect_changes({});
     if (!bulk_->renew(what, monitor_)) return false;
     choice_.renew();
+    if (what == Renewed::loads) {
+        elimination_->take_loads(bulk_->elimination().loads());
+        return true;
+    }
     elimination_.emplace(bulk_->elimination());
+    tree_.reset();
+    tree_offered_ = false;
     return true;
 }
 

@@ -2,6 +2,7 @@
 #include "reduction/condensed/elimination.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
@@ -45,21 +46,34 @@ void Elimination::update(std::span<const double> state, const Poll& poll) {
         if (now < 0.0 || before < 0.0) changed_kind_[p] = updates_;
         state_[p] = now;
     }
-    last_.made = -1;
-    last_node_ = lowest_with_the_zone();
+    refresh_last(poll);
+    interrupted_ = false;
+}
+
+void Elimination::take_loads(DenseMatrix load) {
+    load_ = std::move(load);
+    ++loads_;
+}
+
+void Elimination::refresh_last(const Poll& poll) {
+    const std::int64_t before = std::exchange(last_node_, lowest_with_the_zone());
+    if (before != last_node_) last_.made = -1;
     const Superelements::Node& node = bodies_.nodes()[index(last_node_)];
     for (const std::int64_t child : node.children) refresh_below(child, poll);
     refresh_outside(last_node_, poll);
-    const TreeFront* outside = parent_[index(last_node_)] < 0 ? nullptr : &outside_[index(last_node_)];
-    divide_node(last_, node, outside);
+    const bool top = parent_[index(last_node_)] < 0;
+    const Inputs inputs{children(node), top ? nullptr : &outside_[index(last_node_)]};
+    if (!older(last_, node.jumps, {last_node_}, inputs)) {
+        reload(last_, node, inputs);
+        return;
+    }
+    last_.made = -1;  // until it is made anew
+    divide_node(last_, node, inputs.outside);
     builder_.open(last_, node.leaf, load_.columns);
     if (node.leaf >= 0) builder_.add_leaf(last_, node.leaf);
-    for (const std::int64_t child : node.children) builder_.add(last_, below_[index(child)]);
-    add_own(last_, node);
-    if (outside != nullptr) builder_.add(last_, *outside);
+    add_all(last_, node, inputs);
     eliminate(last_, poll);
     mirror_lower(last_.energy.stiffness);
-    interrupted_ = false;
 }
 
 // Down from the root as long as all of the zone lies below one child.
@@ -85,15 +99,15 @@ std::int64_t Elimination::lowest_with_the_zone() const {
 
 // Was something made or changed after this front? bordered: nodes on whose borders it depends.
 bool Elimination::older(const TreeFront& front, std::span<const std::int64_t> own,
-                        std::initializer_list<std::int64_t> bordered,
-                        std::initializer_list<const TreeFront*> inputs) const {
+                        std::initializer_list<std::int64_t> bordered, const Inputs& inputs) const {
     if (front.made < 0) return true;
     for (const std::int64_t p : own)
         if (changed_[index(p)] > front.made) return true;
     for (const std::int64_t node : bordered)
         for (const std::int64_t p : bodies_.nodes()[index(node)].border)
             if (changed_kind_[index(p)] > front.made) return true;
-    return std::any_of(inputs.begin(), inputs.end(), [&](const TreeFront* input) { return input->made > front.made; });
+    const auto later = [&](const TreeFront* input) { return input != nullptr && input->made > front.made; };
+    return later(inputs.outside) || std::ranges::any_of(inputs.inside, later);
 }
 
 // Renews the contribution of a subtree to the rest.
@@ -101,15 +115,16 @@ void Elimination::refresh_below(std::int64_t number, const Poll& poll) {
     const Superelements::Node& node = bodies_.nodes()[index(number)];
     for (const std::int64_t child : node.children) refresh_below(child, poll);
     TreeFront& front = below_[index(number)];
-    bool stale = older(front, node.jumps, {number}, {});
-    for (const std::int64_t child : node.children) stale = stale || below_[index(child)].made > front.made;
-    if (!stale) return;
+    const Inputs inputs{children(node), nullptr};
+    if (!older(front, node.jumps, {number}, inputs)) {
+        reload(front, node, inputs);
+        return;
+    }
     front.made = -1;  // until it is made anew
     divide_node(front, node, nullptr);
     builder_.open(front, node.leaf, load_.columns);
     if (node.leaf >= 0) builder_.add_leaf(front, node.leaf);
-    for (const std::int64_t child : node.children) builder_.add(front, below_[index(child)]);
-    add_own(front, node);
+    add_all(front, node, inputs);
     eliminate(front, poll);
 }
 
@@ -124,14 +139,15 @@ void Elimination::refresh_outside(std::int64_t number, const Poll& poll) {
     const std::int64_t sibling = above.children[above.children[0] == number ? 1 : 0];
     refresh_below(sibling, poll);
     TreeFront& front = outside_[index(number)];
-    const TreeFront &beside = below_[index(sibling)], &beyond = outside_[index(parent)];
-    if (!older(front, above.jumps, {number, sibling, parent}, {&beside, top ? &beside : &beyond})) return;
+    const Inputs inputs{{&below_[index(sibling)]}, top ? nullptr : &outside_[index(parent)]};
+    if (!older(front, above.jumps, {number, sibling, parent}, inputs)) {
+        reload(front, above, inputs);
+        return;
+    }
     front.made = -1;  // until it is made anew
     divide_outside(front, number);
     builder_.open(front, -1, load_.columns);
-    builder_.add(front, beside);
-    add_own(front, above);
-    if (!top) builder_.add(front, beyond);
+    add_all(front, above, inputs);
     eliminate(front, poll);
 }
 
@@ -186,18 +202,35 @@ void Elimination::divide_outside(TreeFront& front, std::int64_t number) const {
     sort_unique(front.left);
 }
 
+std::vector<const TreeFront*> Elimination::children(const Superelements::Node& node) const {
+    std::vector<const TreeFront*> found;
+    for (const std::int64_t child : node.children) found.push_back(&below_[index(child)]);
+    return found;
+}
+
+void Elimination::add_all(TreeFront& front, const Superelements::Node& own, const Inputs& inputs) {
+    for (const TreeFront* input : inputs.inside) builder_.add(front, *input);
+    add_own(front, own);
+    if (inputs.outside != nullptr) builder_.add(front, *inputs.outside);
+}
+
 // Entries of the cut, springs of the jumps that are minimised out, loads.
 void Elimination::add_own(TreeFront& front, const Superelements::Node& node) {
     builder_.add_entries(front, node.entries);
+    for (const auto* own : {&node.jumps, &node.kept})
+        for (const std::int64_t p : *own)
+            if (const std::int64_t i = builder_.at(p); i >= 0 && state_[index(p)] > 0.0)
+                front.put(i, i, state_[index(p)]);
+    add_own_loads(front, node);
+}
+
+void Elimination::add_own_loads(TreeFront& front, const Superelements::Node& node) {
     const auto e = static_cast<std::int64_t>(front.out.size());
     for (const auto* own : {&node.jumps, &node.kept})
-        for (const std::int64_t p : *own) {
-            const std::int64_t i = builder_.at(p);
-            if (i < 0) continue;
-            if (state_[index(p)] > 0.0) front.put(i, i, state_[index(p)]);
-            for (std::int64_t q = 0; q < load_.columns; ++q)
-                (i < e ? front.load(i, q) : front.energy.load(i - e, q)) += load_(p, q);
-        }
+        for (const std::int64_t p : *own)
+            if (const std::int64_t i = builder_.at(p); i >= 0)
+                for (std::int64_t q = 0; q < load_.columns; ++q)
+                    (i < e ? front.load(i, q) : front.energy.load(i - e, q)) += load_(p, q);
 }
 
 void Elimination::eliminate(TreeFront& front, const Poll& poll) {
@@ -207,6 +240,19 @@ void Elimination::eliminate(TreeFront& front, const Poll& poll) {
         fail(DELAM_ERROR_NUMERICAL, "the stiffness of ", front.out.size(),
              " condensed jumps and displacements is not positive definite");
     front.made = updates_;
+    front.loaded = loads_;
+}
+
+// As when it was made, with the same digits.
+void Elimination::reload(TreeFront& front, const Superelements::Node& own, const Inputs& inputs) {
+    if (front.loaded == loads_) return;
+    builder_.open_loads(front, load_.columns);
+    for (const TreeFront* input : inputs.inside) builder_.add_loads(front, *input);
+    add_own_loads(front, own);
+    if (inputs.outside != nullptr) builder_.add_loads(front, *inputs.outside);
+    builder_.close(front);
+    front.eliminate_loads();
+    front.loaded = loads_;
 }
 
 void Elimination::recover_below(std::int64_t node, std::span<const double> theta, std::span<double> skeleton) const {

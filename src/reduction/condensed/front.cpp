@@ -42,10 +42,14 @@ void TreeFront::put(std::int64_t i, std::int64_t j, double value) {
 bool TreeFront::eliminate(const Poll& poll) {
     if (!factor_definite(factor, poll)) return false;
     solve_lower(factor, coupling, 0, poll);
-    solve_lower(factor, load);
     subtract_gram(energy.stiffness, coupling, poll);
-    subtract_product(energy.load, coupling, load);
+    eliminate_loads();
     return true;
+}
+
+void TreeFront::eliminate_loads() {
+    solve_lower(factor, load);
+    subtract_product(energy.load, coupling, load);
 }
 
 // x_e = L^-T (L^-1 f_e theta - V x_r)
@@ -60,16 +64,21 @@ void TreeFront::recover(std::span<const double> theta, std::span<double> skeleto
     for (std::size_t i = 0; i < x.size(); ++i) skeleton[index(out[i])] = x[i];
 }
 
-// Zero, with the places of its variables in at_. leaf: what is added next, -1: none; it may set all entries itself.
-void FrontBuilder::open(TreeFront& front, std::int64_t leaf, std::int64_t patterns) {
+void FrontBuilder::open_loads(TreeFront& front, std::int64_t patterns) {
     const auto e = static_cast<std::int64_t>(front.out.size()), r = static_cast<std::int64_t>(front.left.size());
     clear(front.load, e, patterns);
     clear(front.energy.load, r, patterns);
+    for (std::int64_t i = 0; i < e; ++i) at_[index(front.out[index(i)])] = i;
+    for (std::int64_t i = 0; i < r; ++i) at_[index(front.left[index(i)])] = e + i;
+}
+
+// Zero, with the places of its variables in at_. leaf: what is added next, -1: none; it may set all entries itself.
+void FrontBuilder::open(TreeFront& front, std::int64_t leaf, std::int64_t patterns) {
+    open_loads(front, patterns);
+    const auto e = static_cast<std::int64_t>(front.out.size()), r = static_cast<std::int64_t>(front.left.size());
     resize(front.factor, e, e);
     resize(front.coupling, e, r);
     resize(front.energy.stiffness, r, r);
-    for (std::int64_t i = 0; i < e; ++i) at_[index(front.out[index(i)])] = i;
-    for (std::int64_t i = 0; i < r; ++i) at_[index(front.left[index(i)])] = e + i;
     std::int64_t set = 0;
     if (leaf >= 0)
         for (const std::int64_t p : bodies_.rows(leaf)) set += at_[index(p)] >= 0 ? 1 : 0;
@@ -108,24 +117,27 @@ void FrontBuilder::add_entries(TreeFront& front, std::span<const Triplet> entrie
     }
 }
 
-// The energy that another front has left. Its variables stand here in runs of neighbours, those that are eliminated
-// and those that are left each in the same order as there.
-void FrontBuilder::add(TreeFront& front, const TreeFront& other) const {
-    struct Run {
-        std::int64_t from, to, length;
-    };
+FrontBuilder::Runs FrontBuilder::runs(const TreeFront& front, const TreeFront& other) const {
     const auto e = static_cast<std::int64_t>(front.out.size());
-    std::vector<Run> out, left;
+    Runs found;
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(other.left.size()); ++i) {
         const std::int64_t at = at_[index(other.left[index(i)])];
         if (at < 0) continue;
-        auto& runs = at < e ? out : left;
+        auto& runs = at < e ? found.out : found.left;
         const std::int64_t to = at < e ? at : at - e;
         if (!runs.empty() && runs.back().from + runs.back().length == i && runs.back().to + runs.back().length == to)
             ++runs.back().length;
         else
             runs.push_back({i, to, 1});
     }
+    return found;
+}
+
+// The energy that another front has left. Its variables stand here in runs of neighbours, those that are eliminated
+// and those that are left each in the same order as there.
+void FrontBuilder::add(TreeFront& front, const TreeFront& other) const {
+    const auto e = static_cast<std::int64_t>(front.out.size());
+    const auto [out, left] = runs(front, other);
     const DenseMatrix& s = other.energy.stiffness;
     // The part of a column from its diagonal on.
     const auto add_columns = [&s](const std::vector<Run>& runs, DenseMatrix& target) {
@@ -152,6 +164,11 @@ void FrontBuilder::add(TreeFront& front, const TreeFront& other) const {
                 for (std::int64_t i = 0; i < row.length; ++i) sums[row.to + i] += values[i * step];
             }
         }
+    add_loads(front, other);
+}
+
+void FrontBuilder::add_loads(TreeFront& front, const TreeFront& other) const {
+    const auto [out, left] = runs(front, other);
     for (std::int64_t q = 0; q < other.energy.load.columns; ++q) {
         for (const Run& run : out)
             for (std::int64_t i = 0; i < run.length; ++i)

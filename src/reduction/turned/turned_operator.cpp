@@ -23,6 +23,9 @@ namespace delam {
 
 namespace {
 
+// The kinds of points that a state remembers. States before the operator's memory was remembered have 0 for both.
+constexpr double at_place = 2.0, after_move = 4.0;
+
 bool is_loose(std::span<const std::uint8_t> loose, std::size_t body) { return !loose.empty() && loose[body] != 0; }
 
 std::vector<BodyModel> models_of(const Problem& problem) {
@@ -122,27 +125,35 @@ bool TurnedPoint::loosen(const std::vector<std::uint8_t>& more) {
     return loose != before;
 }
 
-std::vector<double> TurnedPoint::numbers() const {
-    std::vector<double> numbers{stresses == TurnedCell::Stresses::count ? 1.0 : 0.0};
-    for (const std::vector<double>* part : {&displacement, &from, &along})
+// The first number is `after_move` where the point is the end of a move, or `at_place`, and one more where stresses
+// count.
+std::vector<double> TurnedMemory::numbers() const {
+    std::vector<double> numbers{(point.from.empty() ? at_place : after_move) +
+                                (point.stresses == TurnedCell::Stresses::count ? 1.0 : 0.0)};
+    for (const std::vector<double>* part : {&point.displacement, &point.from, &point.along, &of_operator})
         numbers.insert(numbers.end(), part->begin(), part->end());
     return numbers;
 }
 
-TurnedPoint TurnedPoint::of(std::span<const double> numbers, std::span<const double> displacement,
-                            std::span<const double> theta) {
+TurnedMemory TurnedMemory::of(std::span<const double> numbers, std::span<const double> displacement,
+                              std::span<const double> theta) {
     TurnedPoint point{{displacement.begin(), displacement.end()}, {}, {}};
     point.theta.assign(theta.begin(), theta.end());
-    if (numbers.empty()) return point;
-    point.stresses = numbers.front() != 0.0 ? TurnedCell::Stresses::count : TurnedCell::Stresses::left_out;
+    if (numbers.empty()) return {std::move(point), {}};
+    const double kind = numbers.front();
+    point.stresses = std::fmod(kind, 2.0) != 0.0 ? TurnedCell::Stresses::count : TurnedCell::Stresses::left_out;
     const std::size_t dofs = displacement.size();
     numbers = numbers.subspan(1);
-    for (std::vector<double>* part : {&point.displacement, &point.from, &point.along}) {
-        if (numbers.empty()) break;
-        part->assign(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(dofs));
+    const auto take = [&](std::vector<double>& part) {
+        part.assign(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(dofs));
         numbers = numbers.subspan(dofs);
+    };
+    take(point.displacement);
+    if (kind < at_place ? !numbers.empty() : kind >= after_move) {
+        take(point.from);
+        take(point.along);
     }
-    return point;
+    return {std::move(point), {numbers.begin(), numbers.end()}};
 }
 
 TurnedOperator::TurnedOperator(const Problem& problem, const Poll& poll)
@@ -220,12 +231,8 @@ void TurnedOperator::turn(LinearScene& scene, const TurnedPoint& point) const {
 void TurnedOperator::load(LinearScene& scene, std::span<const double> displacement,
                           std::span<const double> row_force) const {
     const TurnedBodies& bodies = at(displacement);
-    const auto dim = index(problem_.mesh->dimension());
-    std::vector<double> force = bodies.force(), linear(force.size(), 0.0);
-    for (std::size_t b = 0; b < scene.stiffness.size(); ++b)
-        add_product(scene.stiffness[b]->matrix, scene.mesh->body_nodes(static_cast<std::int32_t>(b)), dim, displacement,
-                    linear);
-    add_scaled(-1.0, linear, force);
+    std::vector<double> force = bodies.force();
+    add_scaled(-1.0, forces(scene, displacement), force);
     // Along free motions, what cells and slides do is rounding, or comes to an end with the iteration.
     jumps_->add_slides(bodies, row_force, force);
     hold_still(scene, force);
@@ -240,6 +247,14 @@ void TurnedOperator::load(LinearScene& scene, std::span<const double> displaceme
             if (const double f = of_strains[p][i]; f != 0.0)
                 scene.problem.forces.push_back({static_cast<std::int64_t>(p), static_cast<std::int64_t>(i), f});
     scene.problem.jump_offset = jumps_->beyond(*scene.mesh);
+}
+
+std::vector<double> TurnedOperator::forces(const LinearScene& scene, std::span<const double> displacement) const {
+    std::vector<double> force(displacement.size(), 0.0);
+    for (std::size_t b = 0; b < scene.stiffness.size(); ++b)
+        add_product(scene.stiffness[b]->matrix, scene.mesh->body_nodes(static_cast<std::int32_t>(b)),
+                    index(problem_.mesh->dimension()), displacement, force);
+    return force;
 }
 
 void TurnedOperator::load_forces(LinearScene& scene, std::span<const double> force) const {
@@ -354,10 +369,15 @@ double TurnedOperator::equilibrium_defect(std::span<const double> theta, const R
 }
 
 void TurnedOperator::require_memory(std::span<const double> memory) const {
+    if (memory.empty()) return;
     const std::size_t one = dofs() + 1, three = 3 * dofs() + 1;
-    if (!memory.empty() && memory.size() != one && memory.size() != three)
-        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds ", memory.size(), " numbers of a linearisation, allowed: 0, ", one,
-             " or ", three);
+    const double kind = memory.front();
+    const bool known = kind >= 0.0 && kind < after_move + 2.0 && kind == std::floor(kind);
+    const bool complete = kind < at_place ? memory.size() == one || memory.size() == three
+                                          : memory.size() >= (kind < after_move ? one : three);
+    if (!known || !complete)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds ", memory.size(), " numbers of a linearisation of kind ", kind,
+             ", allowed: ", one, " or more of kinds 2 and 3, ", three, " or more of kinds 4 and 5");
 }
 
 std::string TurnedOperator::description() const {

@@ -37,10 +37,16 @@ struct TurnedPoint {
     bool operator==(const TurnedPoint&) const = default;
     // Adds loose bodies, [bodies]. True if there are more then.
     bool loosen(const std::vector<std::uint8_t>& more);
-    // Returns it as the numbers that a state remembers, and back. None say that it was linearised at its displacements.
+};
+
+// A state remembers this of its last linear scene.
+struct TurnedMemory {
+    TurnedPoint point;
+    std::vector<double> of_operator;  // the memory that the operator of the scene has (JumpOperator::memory)
+    // Returns it as the numbers of a state, and back. None say that it was linearised at its displacements.
     std::vector<double> numbers() const;
-    static TurnedPoint of(std::span<const double> numbers, std::span<const double> displacement,
-                          std::span<const double> theta);
+    static TurnedMemory of(std::span<const double> numbers, std::span<const double> displacement,
+                           std::span<const double> theta);
 };
 
 struct LinearScene {
@@ -65,6 +71,8 @@ public:
     // Sets its loads, so that at these displacements, which need not be those of turn(), and forces of the rows,
     // forces on nodes and jumps are the true ones, at any factors of the patterns. Couples are held as they are.
     void load(LinearScene& scene, std::span<const double> displacement, std::span<const double> row_force) const;
+    // Returns the forces of its stiffness at displacements, [mesh DOFs].
+    std::vector<double> forces(const LinearScene& scene, std::span<const double> displacement) const;
     // Sets its loads to these forces on the nodes alone, [mesh DOFs], in the additional pattern.
     void load_forces(LinearScene& scene, std::span<const double> force) const;
     // Returns by how much their stresses soften the bodies at displacements, each body over its nodes: the stiffness

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "base/error.hpp"
+#include "delam/delam.h"
+
 namespace delam {
 
 State extended(const State& state, std::size_t patterns) {
@@ -46,6 +49,17 @@ Stepper& LinearisedScene::about(const TurnedPoint& point, std::span<const double
     linear.at.assign(at.begin(), at.end());
     linear.row_force.assign(row_force.begin(), row_force.end());
     return *linear.stepper;
+}
+
+// Frames that turn may let rows share unknowns that they had for themselves.
+State LinearisedScene::resumed(State from) const {
+    try {
+        if (!from.memory.empty()) linear_->stepper->op().require_memory(from.memory);
+    } catch (const Error& error) {
+        if (error.status() != DELAM_ERROR_SNAPSHOT) throw;
+        from.memory.clear();
+    }
+    return from;
 }
 
 void LinearisedScene::take_histories() {

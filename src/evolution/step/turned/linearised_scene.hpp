@@ -49,6 +49,14 @@ public:
         return with(&Options::damage_tolerance,
                     std::max(options.damage_tolerance, of_balance * options.limits.turned_balance), take);
     }
+    // Returns a state from which the next linear step begins. Its memory is that of the operator after an earlier one,
+    // for linear steps change the same pairs, and the zone that has them need not be found again; without it where the
+    // operator cannot have it.
+    State resumed(State from) const;
+    // Returns the forces of the stiffness of the scene at displacements, [mesh DOFs].
+    std::vector<double> forces(std::span<const double> displacement) const {
+        return op_.forces(linear_->scene, displacement);
+    }
     // Returns the stepper of the scene as it is; there must be one.
     Stepper& stepper() const { return *linear_->stepper; }
     // True if other loads cost less than another stiffness.

@@ -70,7 +70,7 @@ Stepper::Result TurnedSteps::solve_about(TurnedPoint& about, const std::vector<d
         std::vector<std::uint8_t> loose;
         try {
             Stepper& stepper = linear_.about(about, at, row_force);
-            Stepper::Result next = solve(stepper, from);
+            Stepper::Result next = solve(stepper, linear_.resumed(from));
             loose = loose_.translating(next.state);
             if (!about.loosen(loose)) return next;
         } catch (const Error& error) {
@@ -116,8 +116,9 @@ TurnedSteps::Begin TurnedSteps::begin(const State& before) const {
     from.displacement.resize(op_.dofs(), 0.0);
     from.row_force.resize(index(problem_.jump_count()), 0.0);
     const std::vector<double> unloaded(problem_.patterns.size(), 0.0);
-    from.about = first ? TurnedPoint{from.displacement, {}, {}, Stresses::count, unloaded} : tangents_.point_of(before);
-    if (!first) from.row_force = loose_.pressing(from.about.loose, before);
+    from.memory =
+        first ? TurnedMemory{{from.displacement, {}, {}, Stresses::count, unloaded}, {}} : tangents_.memory_of(before);
+    if (!first) from.row_force = loose_.pressing(from.memory.point.loose, before);
     return from;
 }
 
@@ -130,7 +131,8 @@ TurnedSteps::Begin TurnedSteps::begin_at(const EnergyFall& fall, const State& st
     const double level = fall.penetrates ? none : fall.energy + state.ledger.dissipated;
     return {fall.displacement,
             state.response.force,
-            {fall.displacement, {}, {}, Stresses::left_out, state.theta, loose_.of(state)},
+            {{fall.displacement, {}, {}, Stresses::left_out, state.theta, loose_.of(state)},
+             tangents_.memory_of(state).of_operator},
             false,
             level,
             op_.unbalanced(at.theta, at.response).off,
@@ -142,7 +144,7 @@ TurnedSteps::Begin TurnedSteps::begin_at(const EnergyFall& fall, const State& st
 Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solve& solve, bool& definite) const {
     const Limits& limits = problem_.options.limits;
     std::vector<double> at = std::move(from.displacement), row_force = std::move(from.row_force);
-    TurnedPoint about = std::move(from.about);
+    auto& [about, of_operator] = from.memory;
     bool own = from.own;  // linearised in this step
     linear_.keep_places(before.response.multipliers);
     Effort effort;
@@ -154,7 +156,10 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
     for (std::int64_t n = 1;; ++n) {
         monitor_.progress("rotate", n, 0);
         if (n > limits.turned_free && std::isfinite(least)) start = extended(lowest, problem_.patterns.size());
+        start.memory = of_operator;
         Stepper::Result next = solve_about(about, at, row_force, start, solve);
+        // A body that interfaces alone hold may come off: where it did, no other linear step begins.
+        if (linear_.keeps_stiffness() && !loose_.may_be()) of_operator = std::move(next.state.memory);
         definite = about.stresses == Stresses::count;
         effort.add(next.state.effort);
         effort.linearisations = n;
@@ -169,10 +174,12 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
         next.state.outcome.turned_off = balanced ? 0.0 : off;
         if (!about.loose.empty() && next.state.outcome.damage_change <= problem_.options.damage_tolerance)
             next.converged = next.converged || loose_.rightly_touches(next.state);
-        // The next step begins with this stiffness, unless that of the result differs.
-        const bool near = own && definite && off < limits.turned_kept * off_before && about.theta == next.state.theta;
-        next.state.memory = (near ? about : tangents_.point_at(next.state)).numbers();
         if (balanced || n == limits.turned_most) {
+            // The next step begins with this stiffness, unless that of the result differs.
+            const bool near =
+                own && definite && off < limits.turned_kept * off_before && about.theta == next.state.theta;
+            next.state.memory =
+                TurnedMemory{near ? about : tangents_.point_at(next.state), std::move(of_operator)}.numbers();
             next.converged = next.converged && balanced;
             return next;
         }
@@ -196,7 +203,7 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
             const std::vector<double> move = difference(image, at);
             add_scaled(lowest_share(op_, pairs_, next.state, at, move), move, at);
         } else if (mixing.needed()) {
-            Iterate mixed = mixing.mixed();
+            Iterate mixed = mixing.mixed([this](std::span<const double> d) { return linear_.forces(d); });
             at = std::move(mixed.displacement);
             row_force = std::move(mixed.row_force);
         } else if (rises) {
@@ -330,7 +337,12 @@ PathWithin TurnedSteps::follow_load(const State& before, double time, Stepper::R
 
 TurnedSteps::Begin TurnedSteps::at_rest(const State& balance) const {
     constexpr double none = std::numeric_limits<double>::infinity();
-    return {balance.response.multipliers, balance.response.force, tangents_.point_at(balance), true, none, none};
+    return {balance.response.multipliers,
+            balance.response.force,
+            {tangents_.point_at(balance), tangents_.memory_of(balance).of_operator},
+            true,
+            none,
+            none};
 }
 
 Stepper::Result TurnedSteps::lowest_state(const State& before, double time, double stride, Stepper::Result best) const {
@@ -338,7 +350,7 @@ Stepper::Result TurnedSteps::lowest_state(const State& before, double time, doub
                                  const Begin from = at_rest(balance);
                                  const State start = extended(before, problem_.patterns.size());
                                  const Stepper::Start own(balance, false);
-                                 Stepper& stepper = linear_.about(from.about, from.displacement, from.row_force);
+                                 Stepper& stepper = linear_.about(from.memory.point, from.displacement, from.row_force);
                                  return linear_.searching([&] { return stepper.step(start, time, {&own, 1}, stride); });
                              },
                              [&](const State& balance, const Stepper::Start& start) {
@@ -376,7 +388,7 @@ Stepper::Result TurnedSteps::step(const State& before, double time, double strid
     if (result.state.outcome.buckling.modes > 0) within = {};  // the path led to the state that has been left
     work += within.beyond;
     State& next = result.state;
-    next.memory = known.about.numbers();
+    next.memory = TurnedMemory{known.about, tangents_.memory_of(next).of_operator}.numbers();
     const double lower_change = half_square(known.tangent, d);
     const std::unique_ptr<StepRule> rule = linear_.stepper().increment(before, before.mixity);
     next.step = before.step + 1;

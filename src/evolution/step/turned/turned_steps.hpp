@@ -58,7 +58,7 @@ private:
     // is dissipated, and the unbalanced force over the load.
     struct Begin {
         std::vector<double> displacement, row_force;
-        TurnedPoint about;
+        TurnedMemory memory;
         bool own;  // the stiffness is of this step
         double level, off;
         bool falls = false;  // from a state that is not stable, with faces apart

@@ -9,10 +9,10 @@ namespace delam {
 
 bool unstable(const Error& error) { return error.status() == DELAM_ERROR_NUMERICAL || error.status() == DELAM_LIMIT; }
 
-TurnedPoint TurnedTangents::point_of(const State& state) const {
-    TurnedPoint point = TurnedPoint::of(state.memory, state.response.multipliers, state.theta);
-    point.loose = loose_.of(state);
-    return point;
+TurnedMemory TurnedTangents::memory_of(const State& state) const {
+    TurnedMemory memory = TurnedMemory::of(state.memory, state.response.multipliers, state.theta);
+    memory.point.loose = loose_.of(state);
+    return memory;
 }
 
 TurnedPoint TurnedTangents::point_at(const State& state, Stresses stresses) const {
@@ -27,7 +27,10 @@ Stepper& TurnedTangents::without_loads(const TurnedPoint& about, const State& st
 
 std::vector<double> TurnedTangents::tangent_about(const TurnedPoint& about, const State& state, const State& at) const {
     try {
-        return of_patterns(without_loads(about, state).tangent(at));
+        State from = at;
+        from.memory = memory_of(state).of_operator;
+        Stepper& stepper = without_loads(about, state);
+        return of_patterns(stepper.tangent(linear_.resumed(std::move(from))));
     } catch (const Error& error) {
         if (!unstable(error)) throw;
         return {};

@@ -24,8 +24,10 @@ public:
         : problem_(problem), op_(op), loose_(loose), linear_(linear) {}
 
     using Stresses = TurnedCell::Stresses;
+    // Returns what a state remembers.
+    TurnedMemory memory_of(const State& state) const;
     // Return where a state was linearised, and the point at its place under its own stresses.
-    TurnedPoint point_of(const State& state) const;
+    TurnedPoint point_of(const State& state) const { return memory_of(state).point; }
     TurnedPoint point_at(const State& state, Stresses stresses = Stresses::count) const;
 
     // A state with the change of its reactions with the loads, [patterns][patterns]; empty: the stiffness under the
