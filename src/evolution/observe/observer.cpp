@@ -183,7 +183,7 @@ Observer::Holding Observer::holding(const State& state) const {
 std::shared_ptr<const HeldBodies> Observer::held(const State& state) {
     if (&state == shown_ && held_ != nullptr) return held_;
     std::shared_ptr<const HeldBodies> bodies =
-        HeldBodies::of(problem_, holding(state).springs, [] { poll_cancel("buckling"); });
+        HeldBodies::of(problem_, op_.system(), holding(state).springs, [] { poll_cancel("buckling"); });
     if (&state == shown_) held_ = bodies;
     return bodies;
 }

@@ -31,6 +31,7 @@ public:
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
     double rounding_energy(std::span<const double> theta, const Response& response) const override;
     std::vector<double> row_stiffness() const override;
+    const BodySystem* system() const override { return &bulk_->system(); }
     std::span<const std::uint8_t> prescribed_rows() const override { return prescribed_; }
     std::int64_t factorisations() const override { return bulk_->factorisations() - before_; }
     std::unique_ptr<JumpOperator> twin() const override {

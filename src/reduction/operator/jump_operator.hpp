@@ -23,6 +23,7 @@
 
 namespace delam {
 
+class BodySystem;
 class TurnedBodies;
 
 struct OperatorTraits {
@@ -62,6 +63,8 @@ public:
     virtual std::vector<double> row_stiffness() const = 0;
     // The bodies at a response, where their cells turn by any angle; null: rotations are small.
     virtual const TurnedBodies* turned(const Response& /*response*/) const { return nullptr; }
+    // The bodies as one sparse system, which lives as long as the operator; null: it has none.
+    virtual const BodySystem* system() const { return nullptr; }
     // Largest out-of-balance force, F, at a node for the displacements above, with the response's interface forces and
     // reactions.
     virtual double equilibrium_defect(std::span<const double> theta, const Response& response) const = 0;

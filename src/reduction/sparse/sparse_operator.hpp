@@ -46,7 +46,7 @@ protected:
 
     const Problem& problem() const { return problem_; }
     Monitor& monitor() const { return monitor_; }
-    const BodySystem& bodies() const { return *bodies_; }
+    const BodySystem* system() const override { return bodies_.get(); }
     BodySolver& solver() const { return solver_; }
 
 private:

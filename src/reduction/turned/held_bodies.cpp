@@ -11,12 +11,14 @@
 
 namespace delam {
 
-std::unique_ptr<HeldBodies> HeldBodies::of(const Problem& problem, Springs springs, const Poll& poll) {
+std::unique_ptr<HeldBodies> HeldBodies::of(const Problem& problem, const BodySystem* system, Springs springs,
+                                           const Poll& poll) {
     if (problem.engine != nullptr) return nullptr;
-    BodySystem system(problem, poll);
-    SparseMatrix transformed = system.transformed(poll);
+    std::unique_ptr<const BodySystem> own;
+    if (system == nullptr) own = std::make_unique<const BodySystem>(problem, poll);
+    const BodySystem& bodies = own ? *own : *system;
     const double most = memory_limit(problem.options.memory_limit).bytes;
-    return factorised(std::make_shared<const Bodies>(Bodies{std::move(system), std::move(transformed), most}),
+    return factorised(std::make_shared<const Bodies>(Bodies{std::move(own), bodies, bodies.transformed(poll), most}),
                       std::move(springs), poll);
 }
 

@@ -18,8 +18,9 @@ namespace delam {
 class HeldBodies {
 public:
     // Returns null where nobody here knows all bodies, or something is free to move, or the factor takes more memory
-    // than allowed. One factorisation of all bodies. The problem must outlive it.
-    static std::unique_ptr<HeldBodies> of(const Problem& problem, Springs springs, const Poll& poll);
+    // than allowed. One factorisation of all bodies. system: they; null: they are assembled here. Both must outlive it.
+    static std::unique_ptr<HeldBodies> of(const Problem& problem, const BodySystem* system, Springs springs,
+                                          const Poll& poll);
     // Returns the same bodies with other springs; null as above.
     std::unique_ptr<HeldBodies> with(Springs springs, const Poll& poll) const;
 
@@ -32,7 +33,8 @@ public:
 
 private:
     struct Bodies {
-        BodySystem system;
+        std::unique_ptr<const BodySystem> own;  // null: others have them
+        const BodySystem& system;
         SparseMatrix transformed;
         double most_bytes;  // of a factor
     };

@@ -20,7 +20,7 @@ void EngineOperator::recover_in_engine(std::span<const double> theta, const Resp
 }
 
 std::string EngineOperator::description() const {
-    return text("engine of the host: ", bodies().dofs(), " displacements, of which it knows ",
+    return text("engine of the host: ", system()->dofs(), " displacements, of which it knows ",
                 solver().system().count(), " variables, ", solver().system().rows().size(), " jump rows");
 }
 

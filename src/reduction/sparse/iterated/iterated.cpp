@@ -25,7 +25,7 @@ Zone* Iterated::part(std::span<const double> theta, const Response& response, st
 IteratedSize Iterated::size() const {
     const WholeFactor& whole = *reanalysis().whole();
     return {static_cast<double>(reanalysis().system().count()),
-            static_cast<double>(bodies().stiffness().entries()),
+            static_cast<double>(system()->stiffness().entries()),
             static_cast<double>(reanalysis().system().matrix().entries()),
             whole.size(),
             whole.entries(),
