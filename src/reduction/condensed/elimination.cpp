@@ -243,7 +243,7 @@ void Elimination::eliminate(TreeFront& front, const Poll& poll) {
     front.loaded = loads_;
 }
 
-// As when it was made, with the same digits.
+// A front that is made anew for these loads would have the same digits.
 void Elimination::reload(TreeFront& front, const Superelements::Node& own, const Inputs& inputs) {
     if (front.loaded == loads_) return;
     builder_.open_loads(front, load_.columns);
