@@ -24,7 +24,7 @@ public:
     LooseParts(const Problem& problem, const TurnedOperator& op, const PairLaws& pairs, const ContactScene& contact)
         : problem_(problem), op_(op), pairs_(pairs), contact_(contact) {}
 
-    // True if the supports do not hold all bodies.
+    // True if the supports alone do not hold all bodies.
     bool may_be() const { return contact_.parts != nullptr; }
     // Return TurnedPoint::loose. of: of a state. translating: the bodies that are free to translate, of which a state
     // of a linear scene tells, too. all: those that the supports alone do not hold.
