@@ -26,8 +26,8 @@ constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on
 // 11: energies of candidates for the next search. 12: since when bodies are free. 13: how the growth of a step went on.
 // 14: what its single pairs released. 15: whether its steps are taken whole. 16: jumps before the last part of a step.
 // 17: where the bodies of a step have buckled. 18: shares of the second shear. 19: which
-// state was judged last for its rotations.
-constexpr std::uint32_t version = since_rotation_checks, oldest = 5;
+// state was judged last for its rotations. 20: how far displacements relieve them.
+constexpr std::uint32_t version = since_rotation_relief, oldest = 5;
 constexpr std::int64_t most_steps = std::int64_t{1} << 53;
 // Hash and checksum of a larger file are compared piece by piece, before memory is taken for all of it.
 constexpr std::uint64_t largest_unchecked = std::uint64_t{1} << 20;
@@ -265,7 +265,7 @@ void skip_head(Reader& r, const Solver& solver) {
 
 // Returns the first version that holds all there is to save, so that libraries which know no later one read it.
 std::uint32_t version_for(const Solver& solver) {
-    if (solver.stage() != nullptr && may_turn(*solver.stage()->whole)) return since_rotation_checks;
+    if (solver.stage() != nullptr && may_turn(*solver.stage()->whole)) return since_rotation_relief;
     return solver.stepper().pairs().two_shears() ? since_second_shares : since_second_shares - 1;
 }
 

@@ -171,6 +171,9 @@ struct RotationChecks {
     RotationCheck rotation;  // of cells, rad; its loads: [patterns]
     RotationCheck energy;    // that small rotations leave out, of that of the bodies; its load: the rotation
     RotationCheck stresses;  // over the critical ones; its loads: [patterns]
+    // The share of the energy of strains that rotations add (Observer::RotationEnergy) that further displacements
+    // leave; its loads: [patterns].
+    RotationCheck relief;
 };
 
 // A part of a load step.

@@ -17,6 +17,8 @@ namespace delam {
 inline constexpr std::uint32_t since_second_shares = 18;
 // The version with the state whose rotations were judged last, for kinematics = auto.
 inline constexpr std::uint32_t since_rotation_checks = 19;
+// The version with the relief of rotations among these.
+inline constexpr std::uint32_t since_rotation_relief = 20;
 
 // One row a line.
 // clang-format off
@@ -153,7 +155,9 @@ inline constexpr auto saved_fields<State> = std::tuple_cat(
     saved_since(since_rotation_checks,
         member_of(&State::rotations, &RotationChecks::rotation),
         member_of(&State::rotations, &RotationChecks::energy),
-        member_of(&State::rotations, &RotationChecks::stresses)));
+        member_of(&State::rotations, &RotationChecks::stresses)),
+    saved_since(since_rotation_relief,
+        member_of(&State::rotations, &RotationChecks::relief)));
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&

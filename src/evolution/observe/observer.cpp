@@ -7,17 +7,13 @@
 #include <limits>
 #include <utility>
 
-#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "body/assembly.hpp"
 #include "body/rotation.hpp"
-#include "body/turned/initial_stress.hpp"
 #include "body/turned/turned_bodies.hpp"
 #include "evolution/observe/balance.hpp"
 #include "reduction/sparse/engine/engine_operator.hpp"
-#include "reduction/turned/held_bodies.hpp"
-#include "reduction/turned/linear_buckling.hpp"
 #include "scene/strain_loads.hpp"
 
 namespace delam {
@@ -33,7 +29,7 @@ void Observer::show(const State& state) {
     slopes_.clear();
     fronts_.clear();
     mesh_error_.reset();
-    held_.reset();
+    small_rotations_.reset();
 }
 
 std::optional<CrackedInterface> Observer::cracked(const State& state, std::int64_t interface) const {
@@ -126,48 +122,7 @@ MeshErrorShares Observer::mesh_error(const State& state) {
     return shares;
 }
 
-double Observer::rotation_error(const State& state, double negligible) {
-    if (op_.turned(state.response) != nullptr) return 0.0;
-    const double rotation = largest_rotation(state), of_strains = 0.5 * rotation * rotation;
-    const double share = energy_of_rotations(state, negligible) / state.ledger.stored_bulk;
-    return std::isfinite(share) ? std::max(of_strains, share) : of_strains;  // squares of tiny loads are 0
-}
-
-// Rotations W add the strains  q = 1/2 W^T W.  The stresses do work on them, and they have an energy of their own, as
-// far as further displacements v, which the interfaces hold, do not undo them (O. Zienkiewicz, R. Taylor, The Finite
-// Element Method 2, 2000, chapter 10):
-//
-//     |int s : q|  +  min over v of  1/2 int (e(v) + q) : C : (e(v) + q) + springs,
-//
-// whose minimum is 1/2 int q : C : q - 1/2 f . (K + springs)^-1 f with the forces f of the stresses C : q.
-double Observer::energy_of_rotations(const State& state, double negligible) {
-    const Mesh& mesh = *problem_.mesh;
-    const std::size_t dim = index(mesh.dimension());
-    const std::vector<double> moved = displacement(state);
-    const double work = std::abs(InitialStress(mesh, stress(state)).work_on_rotations(moved));
-    std::vector<double> strain = centres().slopes(moved);
-    for (std::size_t c = 0; c < strain.size(); c += dim * dim) {
-        const std::span<double> slope = std::span(strain).subspan(c, dim * dim);
-        std::array<double, 9> skew{}, square{};
-        for (std::size_t i = 0; i < dim; ++i)
-            for (std::size_t j = 0; j < dim; ++j) skew[i * dim + j] = 0.5 * (slope[i * dim + j] - slope[j * dim + i]);
-        for (std::size_t i = 0; i < dim; ++i)
-            for (std::size_t j = 0; j < dim; ++j)
-                for (std::size_t k = 0; k < dim; ++k)
-                    square[i * dim + j] += 0.5 * skew[k * dim + i] * skew[k * dim + j];
-        std::copy_n(square.begin(), dim * dim, slope.begin());
-    }
-    const std::vector<double> still(moved.size(), 0.0);
-    const InitialStress membrane(mesh, centre_stress(mesh, models(), still, strain, {}));
-    const double most = 0.5 * membrane.work_on_rotations(moved);
-    if (!(most > negligible * state.ledger.stored_bulk)) return work;
-    const std::shared_ptr<const HeldBodies> bodies = held(state);
-    if (bodies == nullptr) return work;
-    const std::vector<double> force = membrane.forces();
-    return work + std::max(0.0, most - 0.5 * dot(force, bodies->solve(force)));
-}
-
-Observer::Holding Observer::holding(const State& state) const {
+SmallRotations::Holding Observer::holding(const State& state) const {
     const double least = problem_.options.limits.turned_balance * max_abs(op_.reaction(state.theta, state.response));
     const auto dim = index(problem_.mesh->dimension());
     std::vector<std::uint8_t> pressed = state.closed, touching(state.response.jump.size(), 0);
@@ -180,25 +135,21 @@ Observer::Holding Observer::holding(const State& state) const {
     return {{spring_stiffness(pairs_, state.adhesion), held_rows(contact_, pressed)}, std::move(touching)};
 }
 
-std::shared_ptr<const HeldBodies> Observer::held(const State& state) {
-    if (&state == shown_ && held_ != nullptr) return held_;
-    std::shared_ptr<const HeldBodies> bodies =
-        HeldBodies::of(problem_, op_.system(), holding(state).springs, [] { poll_cancel("buckling"); });
-    if (&state == shown_) held_ = bodies;
-    return bodies;
+std::shared_ptr<SmallRotations> Observer::small_rotations(const State& state) {
+    if (op_.turned(state.response) != nullptr) return nullptr;
+    if (&state == shown_ && small_rotations_ != nullptr) return small_rotations_;
+    SmallRotations::Moved moved{displacement(state), {}, {}};
+    moved.slopes = centres().slopes(moved.displacement);
+    moved.stress = centre_stress(*problem_.mesh, models(), moved.displacement, moved.slopes, eigenstrains(state));
+    auto small = std::make_shared<SmallRotations>(problem_, op_.system(), models(), std::move(moved),
+                                                  state.ledger.stored_bulk, [this, &state] { return holding(state); });
+    if (&state == shown_) small_rotations_ = small;
+    return small;
 }
 
-double Observer::buckling_ratio(const State& state) {
-    if (op_.turned(state.response) != nullptr || problem_.mesh->cell_count() == 0) return unknown;
-    const std::shared_ptr<const HeldBodies> bodies = held(state);
-    if (bodies == nullptr) return unknown;
-    return critical_ratio(*bodies, holding(state).touching, InitialStress(*problem_.mesh, stress(state)),
-                          [] { poll_cancel("buckling"); });
-}
-
-std::vector<double> Observer::stress(const State& state) {
-    const std::vector<double> moved = displacement(state);
-    return centre_stress(*problem_.mesh, models(), moved, centres().slopes(moved), eigenstrains(state));
+double Observer::left_out(const State& state, double (SmallRotations::*value)(), double large) {
+    const std::shared_ptr<SmallRotations> small = small_rotations(state);
+    return small != nullptr ? (*small.*value)() : large;
 }
 
 std::vector<double> Observer::stress() {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "evolution/increment/state.hpp"
 #include "evolution/observe/crack_front.hpp"
 #include "evolution/observe/mesh_error.hpp"
+#include "reduction/turned/small_rotations.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
@@ -31,14 +33,8 @@ struct MeshErrorShares {
     double excess = 0.0;  // energy that incompatible modes would take off standard cells
 };
 
-class HeldBodies;
-
 class Observer {
 public:
-    // The largest error that leaving out a factorisation makes of an error of rotations, a fiftieth of what a run
-    // tells; half and twice only factorise more and less often.
-    static constexpr double usually_negligible = 1e-4;
-
     // The arguments must outlive the observer.
     Observer(const Problem& problem, const JumpOperator& op, const PairLaws& pairs, const ContactScene& contact,
              const std::vector<double>& initial_adhesion, const EngineOperator* in_engine)
@@ -86,13 +82,12 @@ public:
     std::vector<double> rotation();
     // Returns the largest rotation of a cell, rad; NaN without cells. Recovers the displacements.
     double largest_rotation(const State& state);
-    // Returns the relative error of strains that are linear in the displacements, about: the larger of half the square
-    // of the largest rotation, and the energy that rotations add over that of the bodies. 0 where strains know
-    // rotations; NaN without cells. Recovers the displacements. negligible: this share of the energy, which rotations
-    // add at most, is not worth a factorisation of the bodies.
-    double rotation_error(const State& state, double negligible = usually_negligible);
-    // Returns the present stresses over those at which the bodies buckle (critical_ratio).
-    double buckling_ratio(const State& state);
+    // Returns what the rotations of a state leave out, of which it knows what it was asked for; null where they are
+    // large. Recovers the displacements.
+    std::shared_ptr<SmallRotations> small_rotations(const State& state);
+    // Returns one of its values, and `large` where rotations are large.
+    double left_out(const State& state, double (SmallRotations::*value)(),
+                    double large = std::numeric_limits<double>::quiet_NaN());
 
     // Returns the error of the stored energy that mesh_error.hpp estimates for a state; recovers the displacements.
     // Finite only where the materials of all cells are known and energy is stored.
@@ -119,20 +114,7 @@ private:
     // Returns the model of each body; undefined where the material is unknown.
     std::vector<BodyModel> models() const;
     std::vector<Strain> eigenstrains(const State& state) const;
-    // Returns the stress at the centres of the cells, of any state with small rotations.
-    std::vector<double> stress(const State& state);
-    // Returns the energy that the strains of rotations add, to fourth order in these, F L. Where a part is free to
-    // move, the work of the stresses is all of it that is known.
-    double energy_of_rotations(const State& state, double negligible);
-    // The springs at the adhesion of a state, with pairs held that contact presses together; touching: normal rows of
-    // pairs that touch without a force, [rows].
-    struct Holding {
-        Springs springs;
-        std::vector<std::uint8_t> touching;
-    };
-    Holding holding(const State& state) const;
-    // The bodies at the adhesion and contact of a state; null: they are not known, or free.
-    std::shared_ptr<const HeldBodies> held(const State& state);
+    SmallRotations::Holding holding(const State& state) const;
     MeshError estimate(const State& state);
     const CentreGradients& centres();
     // Displacement gradients at the centres of the cells (CentreGradients::slopes), of the state that is shown.
@@ -151,7 +133,7 @@ private:
     std::unique_ptr<MeshErrorEstimate> estimates_;                // null: not yet needed
     std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // [interfaces]
     std::optional<MeshErrorShares> mesh_error_;                   // nothing: not estimated
-    std::shared_ptr<const HeldBodies> held_;                      // null: not factorised
+    std::shared_ptr<SmallRotations> small_rotations_;             // null: not needed
     // These are made when they are first asked for, and then used always: so a resumed analysis has the same digits.
     std::map<std::int32_t, std::optional<AverageReadings>> averages_;
     std::map<std::int64_t, std::vector<LinearReading>> nodes_;

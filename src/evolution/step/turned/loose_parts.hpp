@@ -24,8 +24,11 @@ public:
     LooseParts(const Problem& problem, const TurnedOperator& op, const PairLaws& pairs, const ContactScene& contact)
         : problem_(problem), op_(op), pairs_(pairs), contact_(contact) {}
 
-    // True if the supports alone do not hold all bodies.
-    bool may_be() const { return contact_.parts != nullptr; }
+    // True if supports and what adheres in a state hold all bodies, whatever touches.
+    bool none_without_contact(const State& state) const;
+    // True if the forces of a state are much larger than what is out of balance, or rounding. off: what is out of
+    // balance, over the load.
+    bool known_forces(const State& state, double off) const;
     // Return TurnedPoint::loose. of: of a state. translating: the bodies that are free to translate, of which a state
     // of a linear scene tells, too. all: those that the supports alone do not hold.
     std::vector<std::uint8_t> of(const State& state) const;

@@ -152,14 +152,15 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
     Balanced at_rest(limits.turned_balance, limits.minimise_most_idle);
     Mixing mixing;
     bool rested = false;
-    double level = from.level, off_before = from.off, least = std::numeric_limits<double>::infinity();
+    double level = from.level, off_before = from.off;
     for (std::int64_t n = 1;; ++n) {
         monitor_.progress("rotate", n, 0);
-        if (n > limits.turned_free && std::isfinite(least)) start = extended(lowest, problem_.patterns.size());
+        if (n > std::max<std::int64_t>(limits.turned_free, 2)) start = extended(lowest, problem_.patterns.size());
         start.memory = of_operator;
         Stepper::Result next = solve_about(about, at, row_force, start, solve);
-        // A body that interfaces alone hold may come off: where it did, no other linear step begins.
-        if (linear_.keeps_stiffness() && !loose_.may_be()) of_operator = std::move(next.state.memory);
+        // A linear step in which a body comes off ends in another zone than the one before.
+        const bool held = loose_.none_without_contact(next.state);
+        of_operator = held && linear_.keeps_stiffness() ? std::move(next.state.memory) : std::vector<double>();
         definite = about.stresses == Stresses::count;
         effort.add(next.state.effort);
         effort.linearisations = n;
@@ -170,7 +171,8 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
         // Forces that balance without the stresses get another linear step in which these count. Next to a critical
         // load, forces that let the energy fall are small.
         const bool falls_on = from.falls && energy < level - noise;
-        const bool balanced = at_rest(off, rounding) && (definite || (std::exchange(rested, true) && !falls_on));
+        const bool rests = at_rest(off, rounding) && (held || loose_.known_forces(next.state, off));
+        const bool balanced = rests && (definite || (std::exchange(rested, true) && !falls_on));
         next.state.outcome.turned_off = balanced ? 0.0 : off;
         if (!about.loose.empty() && next.state.outcome.damage_change <= problem_.options.damage_tolerance)
             next.converged = next.converged || loose_.rightly_touches(next.state);
@@ -183,10 +185,7 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
             next.converged = next.converged && balanced;
             return next;
         }
-        if (n > 1 && energy < least) {
-            least = energy;
-            lowest = next.state;
-        }
+        if (n == 2 || (n > 2 && energy < energy_of(lowest))) lowest = next.state;
         const bool rises = energy > level + noise && (off > off_before || from.falls);
         std::vector<std::uint8_t> loose = loose_.of(next.state);
         std::vector<double>& image = next.state.response.multipliers;
