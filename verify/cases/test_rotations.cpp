@@ -80,7 +80,7 @@ TEST(double_cantilever_grows_like_an_elastica) {
     for (int k = 1; k <= last; ++k) {
         solver.step(k / 40.0);
         solver.commit();
-        expect_closed_balance(solver, 1.5e-3, 1e-4);
+        expect_closed_balance(solver, 2e-3, 1e-4);  // work is a trapezoid across forces that fall by a pair
         cases::expect(solver.value("jumps") == 0.0 && solver.value("released") == 0.0, "steady growth is no jump");
         if (k < first) continue;
         const Arm arm = cases::growing_arm(bending_stiffness(young, 0.5), 0.25, 0.5 * k);

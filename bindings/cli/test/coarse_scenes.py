@@ -323,8 +323,9 @@ def scene_file(examples, name):
 COARSE = {
     "dcb-alfano": ([*shortened(0.075, 750), "time.steps=50"], [grows, softens, mirrored, resolved, as_alfano_and_crisfield]),
     "dcb-krueger": ([*shortened(0.050, 1000), "time.steps=35"], [grows, softens, mirrored, resolved, as_krueger]),
+    # A pair that comes apart takes 0.9 % off the force.
     "dcb-elastica": ([], [grows, softens, mirrored,
-                         elastica([(0.02, 988.58, 5e-3), (0.025, 895.58, 5e-3), (0.03, 828.20, 5e-3)])]),
+                         elastica([(0.02, 988.58, 7e-3), (0.025, 895.58, 5e-3), (0.03, 828.20, 5e-3)])]),
     "peel": (["time.end=0.667", "time.steps=40"], [grows, elastica([(0.005, 582.69, 1e-2), (0.01, 511.68, 1e-2)])]),
     "blister": ([], [blisters]),
     "lap-joint": ([], [turns_and_fails]),

@@ -86,10 +86,11 @@ double SmallRotations::buckling_ratio() {
 }
 
 const HeldBodies* SmallRotations::held() {
-    if (std::exchange(tried_, true)) return held_.get();
+    if (tried_) return held_.get();
     Holding now = holding_();
     touching_ = std::move(now.touching);
     held_ = HeldBodies::of(problem_, bodies_, std::move(now.springs), poll);
+    tried_ = true;  // not where a cancellation or a lack of memory has ended it
     return held_.get();
 }
 
