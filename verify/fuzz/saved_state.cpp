@@ -72,6 +72,7 @@ public:
             go_on_from(found);
         // Continuing from another state must leave nothing behind that affects the next.
         const std::size_t next = (own == states_.end() ? bytes.size() : found + 1) % steps;
+        host_.polls_left = 4000;  // an analysis from other bytes may have been cancelled
         expect(delam_solver_load(solver_, static_cast<std::int64_t>(states_[next].size()), states_[next].data()) ==
                    DELAM_OK,
                "another state can be loaded afterwards", "delam_solver_load");
