@@ -6,21 +6,33 @@
 #include <cstdint>
 #include <limits>
 
+#include "scene/limits.hpp"
+
 namespace delam {
 
-// Tells whether the forces balance: within the tolerance, or within rounding once linearisations come no nearer.
+// Tells whether the forces balance: within the tolerance; or where another linear step would hardly move the bodies; or
+// within rounding once linear steps come no nearer.
 class Balanced {
 public:
-    Balanced(double tolerance, std::int64_t most_idle) : tolerance_(tolerance), most_idle_(most_idle) {}
-    bool operator()(double off, double rounding) {
+    explicit Balanced(const Limits& limits) : limits_(limits) {}
+    // off: the unbalanced force over the load. move: by how much the last linear step has moved the bodies, the root of
+    // the energy of this move over that of the bodies; infinite: unknown.
+    bool operator()(double off, double rounding, double move) {
+        // The next one moves them by less, as their forces have come nearer to their balance.
+        const double factor = off / off_, next = factor * move;
+        off_ = off;
         idle_ = off < 0.5 * least_ ? 0 : idle_ + 1;
         least_ = std::min(least_, off);
-        return off <= tolerance_ || (idle_ >= most_idle_ && off <= rounding);
+        return off <= limits_.turned_balance ||
+               (factor < limits_.turned_kept && off <= limits_.turned_loose && next <= limits_.turned_move) ||
+               (idle_ >= limits_.minimise_most_idle && off <= rounding);
     }
 
 private:
-    double tolerance_;
-    std::int64_t most_idle_;
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+    const Limits& limits_;
+    double off_ = unknown;
     double least_ = std::numeric_limits<double>::infinity();
     std::int64_t idle_ = 0;
 };

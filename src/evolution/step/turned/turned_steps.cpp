@@ -139,6 +139,11 @@ TurnedSteps::Begin TurnedSteps::begin_at(const EnergyFall& fall, const State& st
             !fall.penetrates};
 }
 
+double TurnedSteps::moved(std::span<const double> at, const State& state) const {
+    const std::vector<double> move = difference(state.response.multipliers, at);
+    return std::sqrt(0.5 * dot(move, linear_.forces(move)) / state.ledger.stored_bulk);
+}
+
 // The first linear step is one about where the step before was linearised. The result is where this step is linearised,
 // once, and again wherever the stiffness of there brings the forces no nearer to their balance.
 Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solve& solve, bool& definite) const {
@@ -149,7 +154,7 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
     linear_.keep_places(before.response.multipliers);
     Effort effort;
     State start = extended(before, problem_.patterns.size()), lowest;
-    Balanced at_rest(limits.turned_balance, limits.minimise_most_idle);
+    Balanced at_rest(limits);
     Mixing mixing;
     bool rested = false;
     double level = from.level, off_before = from.off;
@@ -171,7 +176,8 @@ Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solv
         // Forces that balance without the stresses get another linear step in which these count. Next to a critical
         // load, forces that let the energy fall are small.
         const bool falls_on = from.falls && energy < level - noise;
-        const bool rests = at_rest(off, rounding) && (held || loose_.known_forces(next.state, off));
+        const double move = definite ? moved(at, next.state) : infinite;
+        const bool rests = at_rest(off, rounding, move) && (held || loose_.known_forces(next.state, off));
         const bool balanced = rests && (definite || (std::exchange(rested, true) && !falls_on));
         next.state.outcome.turned_off = balanced ? 0.0 : off;
         if (!about.loose.empty() && next.state.outcome.damage_change <= problem_.options.damage_tolerance)

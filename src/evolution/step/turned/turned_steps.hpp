@@ -66,6 +66,8 @@ private:
     Begin begin(const State& before) const;
     Begin begin_at(const EnergyFall& fall, const State& state) const;
     Begin at_rest(const State& balance) const;
+    // Returns by how much a linear step from `at` has moved the bodies (Balanced).
+    double moved(std::span<const double> at, const State& state) const;
     // definite: out, whether the stiffness of the last linear step has all stresses.
     Stepper::Result iterate(const State& before, Begin from, const Solve& solve, bool& definite) const;
     // Leads a result that is in balance, but not stable, to a stable one. known: in, out; of the result. Returns the
