@@ -282,8 +282,10 @@ LOOP_TEST(support_that_does_nothing, 0, 14) {
     Solver solver(gripped.scene, 0.0);
     for (const double time : instants()) go(solver, time);
     const double scale = alone.value("work");
+    // Steps with large rotations end where another linear step would move the bodies by 1e-6.
+    const double known = loop == 12 ? 1e-5 : 1e-6;
     for (const char* key : {"stored_bulk", "stored_interface", "dissipated", "work", "released", "defect"})
-        cases::expect_near(solver.value(key), alone.value(key), loop == 12 ? 1e-5 : 1e-6, scale, key);
+        cases::expect_near(solver.value(key), alone.value(key), known, scale, key);
     cases::expect_near(solver.value("reaction:open"), alone.value("reaction:open"), 1e-5, alone.value("reaction:open"),
                        "reaction");
 }

@@ -28,6 +28,7 @@ struct Measure {
 constexpr Measure of_rotation{0.1, 1.0, 1.0};  // rad
 constexpr Measure of_energy{0.005, 2.0, 0.0};  // of that of the bodies; its load is the rotation
 constexpr Measure of_stresses{0.1, 1.0, 2.0};  // over the critical ones: bending grows by 1 / (1 - ratio)
+
 // Says when a measure is computed. (`delam run --set solver.kinematics=auto`: with half and twice of each, of the
 // powers and of that in doubt() too, examples/enf and blister turn in the same steps, and dcb-alfano, dcb-3d, mmb and
 // the first 12 of 40 steps of enf-3d do not; the last four take 0.8 to 1.6 of the time, because they compute it more

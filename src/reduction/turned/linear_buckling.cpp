@@ -22,8 +22,9 @@ constexpr ModeAccuracy enough{1e-2, 0.15};
 // blister, and verify/cases/test_buckling passes; half and twice of held_as change them by less than 1e-9.)
 constexpr double pressed = 1e-3;
 // Faces that hold only make a ratio smaller: one below this is known to a thousandth without them, and without another
-// factorisation. (examples/enf ends with 5.5e-5 for 5.4e-5, dcb-3d with less; with half and twice of it examples/enf,
-// mmb, 4enf and laminate-thermal have the same ratios as with it.)
+// factorisation. (`delam run examples/enf/enf.toml --set geometry.h=0.0001 --set time.end=0.75 --set time.steps=15`
+// ends with 5.5e-5 without and 5.4e-5 with them. Half and twice do nothing there, nor to the four ratios above, which
+// are not between them.)
 constexpr double slight = 1e-3;
 
 // True if a mode with either sign presses faces that touch into each other.

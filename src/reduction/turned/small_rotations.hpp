@@ -35,8 +35,6 @@ public:
     // Returns the relative error of strains that are linear in the displacements, about: the larger of half the square
     // of the largest rotation, and the energy that rotations add over that of the bodies. NaN without cells.
     double error();
-    // The largest rotation of a cell, rad; NaN without cells.
-    double largest() const { return largest_; }
     // The energy that rotations add by their strains, over that of the bodies: the work of the stresses, and the energy
     // of these strains themselves, as far as further displacements do not relieve them.
     struct Energy {
@@ -57,7 +55,7 @@ private:
 
     const Problem& problem_;
     const BodySystem* bodies_;
-    double largest_;
+    double largest_;  // rotation of a cell, rad; NaN without cells
     InitialStress stress_;
     InitialStress membrane_;  // the stresses of the strains that rotations add
     double membrane_work_;    // of these on the rotations, without relief, F L
